@@ -2,38 +2,44 @@
 // it into words, `cavum: where: what; what to do` on the command line.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
 #include "engine/base/message.h"
+#include "engine/base/named_enum.h"
 
 namespace cavum {
 
-/// Which error: a value of the enum of the room that throws it. Two are equal when both enum and value are.
+/// Which error: a value of the enum (CAVUM_NAMED_ENUM) of the room that throws it. Two are equal when both enum and value are.
 class ErrorCode {
  public:
   template <class E>
   requires std::is_enum_v<E>
-  constexpr ErrorCode(E code) noexcept : room_(&k_room<E>), value_(static_cast<int>(code)) {}  // NOLINT(google-explicit-constructor)
+  constexpr ErrorCode(E code) noexcept : names_(k_names<E>.data()), value_(static_cast<std::size_t>(code)) {}  // NOLINT(google-explicit-constructor)
   friend constexpr bool operator==(const ErrorCode&, const ErrorCode&) = default;
+  /// As other programs know it.
+  [[nodiscard]] constexpr std::string_view name() const noexcept { return names_[value_]; }
   /// As a value of E, where it is one.
   template <class E>
   [[nodiscard]] constexpr std::optional<E> as() const noexcept {
-    return room_ == &k_room<E> ? std::optional(static_cast<E>(value_)) : std::nullopt;
+    return names_ == k_names<E>.data() ? std::optional(static_cast<E>(value_)) : std::nullopt;
   }
 
  private:
   template <class E>
-  static constexpr char k_room{};
-  const char* room_;
-  int value_;
+  static constexpr auto k_names = names_of(E{});
+  const std::string_view* names_;
+  std::size_t value_;
 };
 
-/// Of an error that nobody has to tell from others.
-enum class General { error };
+/// `error`: one that nobody has to tell from others.
+#define CAVUM_GENERAL_ERRORS(ERROR) ERROR(error)
+CAVUM_NAMED_ENUM(General, CAVUM_GENERAL_ERRORS)
 
 /// Unusable input or environment. `what()` is `where: problem; advice` in English, for logs.
 class Error : public std::runtime_error {

@@ -7,10 +7,10 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
 
 #include "engine/base/error.h"
 #include "engine/base/file_error.h"
+#include "engine/base/system_error.h"
 
 namespace cavum {
 namespace {
@@ -23,18 +23,15 @@ struct File {
   }
 };
 
-std::string reason() { return std::strerror(errno); }
-
 /// All of the file, as bytes or as text. What fstat says of the size is only a guess: files of /sys say 4096, and one may grow meanwhile.
 template <class Content>
 Content read_as(const std::string& path, std::uint64_t largest) {
   if (path.empty()) throw Error(msg("file"), msg("its name is empty"), msg("name a file"));
   const File file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)};  // a pipe that nobody writes to must not hold us
   if (file.fd < 0)
-    throw Error(errno == ENOENT ? ErrorCode(FileError::missing) : General::error, Name{path}, msg("cannot be opened ({})", reason()),
-                msg("check the path and its permissions"));
+    throw Error(system_code(errno), Name{path}, msg("cannot be opened ({})", system_words(errno)), msg("check the path and its permissions"));
   struct stat info {};
-  if (::fstat(file.fd, &info) != 0) throw Error(path, msg("cannot be read ({})", reason()), msg("check the disk and the permissions"));
+  if (::fstat(file.fd, &info) != 0) throw Error(path, msg("cannot be read ({})", system_words(errno)), msg("check the disk and the permissions"));
   if (S_ISDIR(info.st_mode)) throw Error(FileError::not_a_file, Name{path}, msg("is a folder"), msg("name a file"));
   if (!S_ISREG(info.st_mode))
     throw Error(FileError::not_a_file, Name{path}, msg("is no ordinary file but a device, a pipe or a socket"), msg("name a file"));
@@ -50,7 +47,7 @@ Content read_as(const std::string& path, std::uint64_t largest) {
   for (;;) {
     const auto n = ::read(file.fd, block, sizeof block);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw Error(path, msg("cannot be read ({})", reason()), msg("check the disk and the permissions"));
+    if (n < 0) throw Error(path, msg("cannot be read ({})", system_words(errno)), msg("check the disk and the permissions"));
     if (n == 0) return content;
     require_size(content.size() + static_cast<std::uint64_t>(n));
     content.insert(content.end(), block, block + n);

@@ -2,12 +2,14 @@
 // out of it (a JSON value asks for memory even to be taken down). Nothing that counts is entered from then on.
 #pragma once
 
-#include <cstdint>
 #include <string>
+
+#include "engine/base/named_enum.h"
 
 namespace cavum {
 
-enum class MemoryError : std::uint8_t { ran_out };
+#define CAVUM_MEMORY_ERRORS(ERROR) ERROR(ran_out)
+CAVUM_NAMED_ENUM(MemoryError, CAVUM_MEMORY_ERRORS)
 
 /// Sets 16 MB aside, which `new` takes when it finds nothing else; and again, once they were taken. For programs and their longer works.
 void keep_memory_reserve() noexcept;

@@ -9,12 +9,12 @@
 
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 
 #include "engine/base/encoding.h"
 #include "engine/base/error.h"
 #include "engine/base/file_error.h"
+#include "engine/base/system_error.h"
 #include "engine/base/text.h"
 
 namespace cavum {
@@ -38,8 +38,6 @@ class Descriptor {
  private:
   int fd_;
 };
-
-std::string words_of(int error) { return std::strerror(error); }
 
 std::string folder_of(const std::string& path) {
   const fs::path parent = fs::path(path).parent_path();
@@ -90,14 +88,14 @@ void require_writable(const std::string& path) {
   if (!fs::is_directory(folder, none))
     throw Error(FileError::not_written, Name{path}, msg("cannot be written: there is no folder {}", folder), msg("make it, or name another place"));
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    throw Error(FileError::not_written, Name{path}, msg("cannot be written: folder {} is closed to you ({})", folder, words_of(errno)),
+    throw Error(FileError::not_written, Name{path}, msg("cannot be written: folder {} is closed to you ({})", folder, system_words(errno)),
                 msg("change its permissions, or name another place"));
 }
 
 std::string temporary_name_beside(const std::string& path) {
   std::array<unsigned char, 12> drawn{};
   if (::getrandom(drawn.data(), drawn.size(), 0) != static_cast<ssize_t>(drawn.size()))
-    throw Error(path, msg("the system gives no random numbers ({})", words_of(errno)), msg("try again"));
+    throw Error(path, msg("the system gives no random numbers ({})", system_words(errno)), msg("try again"));
   return (fs::path(path).parent_path() / fmt::format(".cavum-{}.part", to_hex(drawn))).string();
 }
 
@@ -106,11 +104,11 @@ void write_file(const std::string& path, std::span<const std::uint8_t> bytes, co
   const std::string temporary = temporary_name_beside(path);
   const auto fail = [&](const Message& what, int error) {
     ::unlink(temporary.c_str());
-    throw Error(error == EEXIST ? FileError::exists : FileError::not_written, Name{path}, msg("{} ({})", what, words_of(error)), msg(k_try_again));
+    throw Error(error == EEXIST ? FileError::exists : FileError::not_written, Name{path}, msg("{} ({})", what, system_words(error)), msg(k_try_again));
   };
   {
     const Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, how.is_private ? 0600 : 0666));
-    if (file.get() < 0) throw Error(FileError::not_written, Name{path}, msg("cannot be created ({})", words_of(errno)), msg(k_try_again));
+    if (file.get() < 0) throw Error(FileError::not_written, Name{path}, msg("cannot be created ({})", system_words(errno)), msg(k_try_again));
     Message what;
     if (const int error = write_all(file.get(), bytes, what); error != 0) fail(what, error);
   }
@@ -127,7 +125,7 @@ void make_private_file(const std::string& path) {
   const Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600));
   if (file.get() >= 0) return;
   if (errno == EEXIST) throw Error(FileError::exists, Name{path}, msg("is there already"), msg("choose another name: nothing is written over it"));
-  throw Error(FileError::not_written, Name{path}, msg("cannot be created ({})", words_of(errno)), msg(k_try_again));
+  throw Error(FileError::not_written, Name{path}, msg("cannot be created ({})", system_words(errno)), msg(k_try_again));
 }
 
 void make_private_folder(const std::string& path) {
@@ -142,14 +140,14 @@ void make_private_folder(const std::string& path) {
     const int error = errno;
     std::error_code none;
     if (!fs::is_directory(made, none))
-      throw Error(FileError::not_written, Name{path}, msg("cannot be made ({})", words_of(error)), msg("name another folder, or make it yourself"));
+      throw Error(FileError::not_written, Name{path}, msg("cannot be made ({})", system_words(error)), msg("name another folder, or make it yourself"));
   }
 }
 
 bool put_in_place(const std::string& made, const std::string& path) {
   if (!rename_new(made, path)) {
     if (errno == EEXIST) return false;
-    throw Error(path, msg("cannot be put in place ({})", words_of(errno)), msg("check the folder and the disk"));
+    throw Error(path, msg("cannot be put in place ({})", system_words(errno)), msg("check the folder and the disk"));
   }
   try {
     sync_folder_of(path);
@@ -166,7 +164,7 @@ void sync_folder_of(const std::string& path) {
   if (open.get() < 0 && (errno == EACCES || errno == EPERM)) return;  // a folder that may be written and not be listed
   if (open.get() >= 0 && ::fsync(open.get()) == 0) return;
   if (errno == EINVAL || errno == ENOTSUP) return;  // a file system that syncs no folders
-  throw Error(FileError::not_written, Name{path}, msg("its folder cannot be synced ({})", words_of(errno)),
+  throw Error(FileError::not_written, Name{path}, msg("its folder cannot be synced ({})", system_words(errno)),
               msg("check the disk: the file may be gone after a power cut"));
 }
 

@@ -6,39 +6,41 @@
 // `# first_tip_mm = 1.5 0 2` says where the servo starts, if not at the first row.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "engine/base/named_enum.h"
 #include "engine/base/pose.h"
 #include "engine/physics/servo/tick.h"
 
 namespace cavum {
 
-/// What a file of a motion can have wrong; faults of its CSV bear none of these.
-enum class MotionError : std::uint8_t {
-  not_text,
-  unknown_column,
-  column_unit,  ///< another than ours, or none
-  column_twice,
-  column_missing,
-  not_a_number,
-  not_finite,
-  time,  ///< before 0, or no seconds
-  time_order,
-  too_long,
-  too_short,
-  in_metres,
-  too_far,
-  rotation,
-  pedal,
-  button,
-  bur,
-  setting,     ///< in a comment, `# NAME = VALUE`
-  no_reading,  ///< of the device, in a session to be written as a motion
-};
+// What a file of a motion can have wrong; faults of its CSV bear none of these.
+// clang-format off
+#define CAVUM_MOTION_ERRORS(ERROR) \
+  ERROR(not_text) \
+  ERROR(unknown_column) \
+  ERROR(column_unit)    /* another than ours, or none */ \
+  ERROR(column_twice) \
+  ERROR(column_missing) \
+  ERROR(not_a_number) \
+  ERROR(not_finite) \
+  ERROR(time)           /* before 0, or no seconds */ \
+  ERROR(time_order) \
+  ERROR(too_long) \
+  ERROR(too_short) \
+  ERROR(in_metres) \
+  ERROR(too_far) \
+  ERROR(rotation) \
+  ERROR(pedal) \
+  ERROR(button) \
+  ERROR(bur) \
+  ERROR(setting)        /* in a comment, `# NAME = VALUE` */ \
+  ERROR(no_reading)     /* of the device, in a session to be written as a motion */
+// clang-format on
+CAVUM_NAMED_ENUM(MotionError, CAVUM_MOTION_ERRORS)
 
 struct MotionSample {
   double t_s = 0;

@@ -1,6 +1,7 @@
 #include "engine/session/disk_refusal.h"
 
-#include <cstring>
+
+#include "engine/base/system_error.h"
 
 namespace cavum {
 namespace {
@@ -28,7 +29,7 @@ Message in_words(DiskFault fault) {
 }  // namespace
 
 Message in_words(const DiskRefusal& refusal) {
-  return refusal.error == 0 ? in_words(refusal.fault) : msg("{} ({})", in_words(refusal.fault), std::strerror(refusal.error));
+  return refusal.error == 0 ? in_words(refusal.fault) : msg("{} ({})", in_words(refusal.fault), system_words(refusal.error));
 }
 
 }  // namespace cavum

@@ -18,7 +18,7 @@ struct DiskRefusal {
   std::int32_t error = 0;  ///< errno; 0: the system gave none
   friend bool operator==(const DiskRefusal&, const DiskRefusal&) = default;
 };
-/// "the disk is full (No space left on device)"
+/// "the disk is full (there is no space left)"
 [[nodiscard]] Message in_words(const DiskRefusal& refusal);
 
 }  // namespace cavum

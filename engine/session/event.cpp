@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
-#include <string_view>
 #include <type_traits>
 
 #include "engine/base/file_error.h"
@@ -52,25 +51,59 @@ using nlohmann::json;
 
 constexpr JsonLimits k_event_limits{.depth = 6};
 
-/// Kinds as people read them: the catalogue takes them from here.
-// clang-format off
-constexpr std::array<std::string_view, std::variant_size_v<Event>> k_kind_words{
-    said("step started"), said("step completed"), said("step failed"), said("step time limit"), said("time limit"), said("over speed"),
-    said("aim reached"), said("perforation"), said("pause started"), said("pause ended"), said("hold started"), said("hold ended"),
-    said("stylus back"), said("pedal lost"), said("pedal back"), said("servo disagrees"), said("office hold"), said("office hold released"),
-    said("announcement"), said("announcement read"), said("tutorial"), said("bur not allowed"), said("finished"), said("pause refused"),
-    said("gap"), said("moved"), said("servo gap"), said("overruns"), said("stylus silent"), said("servo stopped"), said("servo lateness"),
-    said("late work"), said("lock"), said("measured force")};
-// clang-format on
-template <class... Kinds>
-constexpr bool all_have_words(std::type_identity<std::variant<Kinds...>>) {
-  constexpr auto letter = [](char a, char b) { return a == b || (a == '_' && b == ' '); };
-  constexpr auto has_words = [=](std::string_view kind) {
-    return std::ranges::any_of(k_kind_words, [&](std::string_view words) { return std::ranges::equal(kind, words, letter); });
-  };
-  return (has_words(Kinds::k_kind) && ...);
+template <class E, class... Kinds>
+constexpr std::size_t place_in(std::type_identity<std::variant<Kinds...>>) {
+  std::size_t place = 0;
+  static_cast<void>(((std::is_same_v<E, Kinds> || (++place, false)) || ...));
+  return place;
 }
-static_assert(all_have_words(std::type_identity<Event>()));
+template <class E>
+using Is = std::type_identity<E>;
+
+struct KindRow {
+  const char *name = nullptr, *words = nullptr;
+};
+/// What each kind is called, in files and by people; by its place in Event.
+constexpr auto k_kinds = [] {
+  std::array<KindRow, std::variant_size_v<Event>> rows;
+  const auto row = [&rows]<class E>(Is<E>, const char* name, const char* words) { rows[place_in<E>(Is<Event>())] = {name, words}; };
+  row(Is<StepStarted>(), "step_started", said("step started"));
+  row(Is<StepCompleted>(), "step_completed", said("step completed"));
+  row(Is<StepFailed>(), "step_failed", said("step failed"));
+  row(Is<StepTimeUp>(), "step_time_limit", said("step time limit"));
+  row(Is<TimeUp>(), "time_limit", said("time limit"));
+  row(Is<BurNotAllowed>(), "bur_not_allowed", said("bur not allowed"));
+  row(Is<OverSpeed>(), "over_speed", said("over speed"));
+  row(Is<AimReached>(), "aim_reached", said("aim reached"));
+  row(Is<Perforated>(), "perforation", said("perforation"));
+  row(Is<Finished>(), "finished", said("finished"));
+  row(Is<PauseStarted>(), "pause_started", said("pause started"));
+  row(Is<PauseEnded>(), "pause_ended", said("pause ended"));
+  row(Is<PauseRefused>(), "pause_refused", said("pause refused"));
+  row(Is<HoldStarted>(), "hold_started", said("hold started"));
+  row(Is<HoldEnded>(), "hold_ended", said("hold ended"));
+  row(Is<RecordingGap>(), "gap", said("gap"));
+  row(Is<RecordingMoved>(), "moved", said("moved"));
+  row(Is<ServoGap>(), "servo_gap", said("servo gap"));
+  row(Is<Overruns>(), "overruns", said("overruns"));
+  row(Is<StylusSilent>(), "stylus_silent", said("stylus silent"));
+  row(Is<StylusBack>(), "stylus_back", said("stylus back"));
+  row(Is<PedalLost>(), "pedal_lost", said("pedal lost"));
+  row(Is<PedalBack>(), "pedal_back", said("pedal back"));
+  row(Is<ServoStopped>(), "servo_stopped", said("servo stopped"));
+  row(Is<ServoDisagrees>(), "servo_disagrees", said("servo disagrees"));
+  row(Is<ServoLateness>(), "servo_lateness", said("servo lateness"));
+  row(Is<WorkAfterEnd>(), "late_work", said("late work"));
+  row(Is<LockAttempt>(), "lock", said("lock"));
+  row(Is<OfficeHold>(), "office_hold", said("office hold"));
+  row(Is<OfficeHoldReleased>(), "office_hold_released", said("office hold released"));
+  row(Is<Announced>(), "announcement", said("announcement"));
+  row(Is<AnnouncementRead>(), "announcement_read", said("announcement read"));
+  row(Is<TutorialStep>(), "tutorial", said("tutorial"));
+  row(Is<MeasuredForce>(), "measured_force", said("measured force"));
+  return rows;
+}();
+static_assert(std::ranges::none_of(k_kinds, [](const KindRow& row) { return row.name == nullptr; }));
 
 /// Texts and names on one line.
 json on_lines(const json& j) {
@@ -92,7 +125,7 @@ json detail_of(const Event& event) {
 /// True when it is one of these kinds.
 template <class... Kinds>
 bool read_kind(const std::string& kind, const json& detail, const JsonPlace& at, std::variant<Kinds...>& out) {
-  return ((kind == Kinds::k_kind && (read_json_value(detail, at, out.template emplace<Kinds>()), true)) || ...);
+  return ((kind == k_kinds[place_in<Kinds>(Is<Event>())].name && (read_json_value(detail, at, out.template emplace<Kinds>()), true)) || ...);
 }
 
 }  // namespace
@@ -101,9 +134,8 @@ double RecordingGap::utc_s() const noexcept {  // whatever a file says, the diff
   return static_cast<double>(static_cast<std::int64_t>(static_cast<std::uint64_t>(resumed_utc_ns) - static_cast<std::uint64_t>(last_utc_ns))) * 1e-9;
 }
 
-const char* kind_of(const Event& event) {
-  return std::visit([](const auto& e) { return std::remove_cvref_t<decltype(e)>::k_kind; }, event);
-}
+const char* kind_of(const Event& event) { return k_kinds[event.index()].name; }
+Term word_of(const Event& event) { return {k_kinds[event.index()].words}; }
 
 bool operator==(const TimedEvent& a, const TimedEvent& b) {
   return a.tick == b.tick && a.event.index() == b.event.index() && detail_of(a.event) == detail_of(b.event);

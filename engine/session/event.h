@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "engine/base/message.h"
 #include "engine/base/text.h"
 #include "engine/base/vec.h"
 #include "engine/base/where.h"
@@ -42,46 +43,31 @@ struct OfEntry {
   std::string text = {};    ///< the office's
 };
 
-template <std::size_t n>
-struct EventName {
-  char text[n];
-  constexpr EventName(const char (&name)[n]) { std::copy_n(name, n, text); }  // NOLINT: from a literal
-};
-/// A kind by its name in a file, and what belongs to it.
-template <EventName name, class Detail = NoDetail>
-struct EventKind : Detail {
-  static constexpr const char* k_kind = name.text;
-};
-
-// The runner's.
-using StepStarted = EventKind<"step_started", OfStep>;
-using StepCompleted = EventKind<"step_completed", OfStep>;
-using StepFailed = EventKind<"step_failed", OfStep>;  ///< its fail_when came true
-using StepTimeUp = EventKind<"step_time_limit", OfStep>;
-using TimeUp = EventKind<"time_limit">;  ///< the exam's
+// The runner's. What each is called, in files and by people, says event.cpp.
+struct StepStarted : OfStep {};
+struct StepCompleted : OfStep {};
+struct StepFailed : OfStep {};  ///< its fail_when came true
+struct StepTimeUp : OfStep {};
+struct TimeUp : NoDetail {};  ///< the exam's
 struct BurNotAllowed {
-  static constexpr char k_kind[] = "bur_not_allowed";
   std::int32_t bur = 0;  ///< of the tray
 };
-using OverSpeed = EventKind<"over_speed">;              ///< faster than max_rpm
-using AimReached = EventKind<"aim_reached", OfTissue>;  ///< a tissue under perforation.aims
-using Perforated = EventKind<"perforation", OfTissue>;  ///< a tissue under perforation.faults
+struct OverSpeed : NoDetail {};   ///< faster than max_rpm
+struct AimReached : OfTissue {};  ///< a tissue under perforation.aims
+struct Perforated : OfTissue {};  ///< a tissue under perforation.faults
 struct Finished {
-  static constexpr char k_kind[] = "finished";
   Finish how = Finish::ended;
 };
-using PauseStarted = EventKind<"pause_started", OfPause>;  ///< its tick is the first that does not count
-using PauseEnded = EventKind<"pause_ended", OfPause>;      ///< its tick counts again
-struct PauseRefused {                                      ///< the button was pressed when none was left or the handpiece turned
-  static constexpr char k_kind[] = "pause_refused";
-  std::int32_t pauses = 0;  ///< taken so far
+struct PauseStarted : OfPause {};  ///< its tick is the first that does not count
+struct PauseEnded : OfPause {};    ///< its tick counts again
+struct PauseRefused {              ///< the button was pressed when none was left or the handpiece turned
+  std::int32_t pauses = 0;         ///< taken so far
 };
-using HoldStarted = EventKind<"hold_started", OfPause>;  ///< by the exam office; its tick is the first that does not count
-using HoldEnded = EventKind<"hold_ended", OfPause>;      ///< its tick counts again
+struct HoldStarted : OfPause {};  ///< by the exam office; its tick is the first that does not count
+struct HoldEnded : OfPause {};    ///< its tick counts again
 
 // The station's.
 struct RecordingGap {  ///< the recording was cut off and taken up again; its tick is the number of ticks before it
-  static constexpr char k_kind[] = "gap";
   std::int64_t last_utc_ns = 0, resumed_utc_ns = 0;
   std::optional<double> boot_s;  ///< that passed in between; none where the computer was started anew, or does not tell
   std::string boot_id;           ///< of the boot in which it goes on; may be empty
@@ -89,54 +75,46 @@ struct RecordingGap {  ///< the recording was cut off and taken up again; its ti
   ResumedBy by;
   [[nodiscard]] double utc_s() const noexcept;  ///< that passed in between by the clock that people may set
 };
-struct RecordingMoved {  ///< the disk refused: from here on at another place
-  static constexpr char k_kind[] = "moved";
+struct RecordingMoved {    ///< the disk refused: from here on at another place
   std::string from;        ///< file name without folder
   std::int64_t ticks = 0;  ///< written there
   DiskRefusal why;
 };
 struct ServoGap {  ///< periods of the last second that passed without a tick
-  static constexpr char k_kind[] = "servo_gap";
   std::int64_t periods = 0, times = 0, first_tick = 0;
 };
 struct Overruns {  ///< ticks of the last second that started more than a period late
-  static constexpr char k_kind[] = "overruns";
   std::int64_t count = 0;
   double worst_late_ms = 0;
 };
 struct StylusSilent {  ///< no fresh pose for longer than the watchdog allows
-  static constexpr char k_kind[] = "stylus_silent";
   bool fault = false;  ///< it gave nonsense
 };
-using StylusBack = EventKind<"stylus_back">;
-using PedalLost = EventKind<"pedal_lost">;
-using PedalBack = EventKind<"pedal_back">;
-using ServoStopped = EventKind<"servo_stopped", ServoStop>;
-using ServoDisagrees = EventKind<"servo_disagrees">;  ///< servo and recording had different states, first at this tick
+struct StylusBack : NoDetail {};
+struct PedalLost : NoDetail {};
+struct PedalBack : NoDetail {};
+struct ServoStopped : ServoStop {};
+struct ServoDisagrees : NoDetail {};  ///< servo and recording had different states, first at this tick
 struct ServoLateness {
-  static constexpr char k_kind[] = "servo_lateness";
   RealTimeReport servo;
   std::int64_t first_disagreement = -1;
 };
 struct WorkAfterEnd {  ///< a motion file or operator went on after the end; not simulated, and nothing of it counts
-  static constexpr char k_kind[] = "late_work";
   std::int64_t ticks = 0, pedal_ticks = 0;
 };
 enum class LockTry { close_asked, close_refused, close_granted, focus_lost, focus_back, screen_lost, screen_back, second_station, keyboard_added };
 struct LockAttempt {  ///< what was tried to leave an exam
-  static constexpr char k_kind[] = "lock";
   LockTry what{};
   bool by_supervisor = false;     ///< close_granted: a locked station's, by his code
   std::int32_t screens_left = 0;  ///< screen_lost and screen_back
   std::string keyboard = {};      ///< keyboard_added
 };
-using OfficeHold = EventKind<"office_hold", OfEntry>;                   ///< the office paused the exam; `text`: why
-using OfficeHoldReleased = EventKind<"office_hold_released", OfEntry>;  ///< an invigilator let it go on while the office did not answer
-using Announced = EventKind<"announcement", OfEntry>;
-using AnnouncementRead = EventKind<"announcement_read", OfEntry>;
-using TutorialStep = EventKind<"tutorial", OfStep>;  ///< in practice: it was done; from 1
-struct MeasuredForce {                               ///< by a load cell; no program of ours writes it
-  static constexpr char k_kind[] = "measured_force";
+struct OfficeHold : OfEntry {};          ///< the office paused the exam; `text`: why
+struct OfficeHoldReleased : OfEntry {};  ///< an invigilator let it go on while the office did not answer
+struct Announced : OfEntry {};
+struct AnnouncementRead : OfEntry {};
+struct TutorialStep : OfStep {};  ///< in practice: it was done; from 1
+struct MeasuredForce {            ///< by a load cell; no program of ours writes it
   std::int32_t every_ticks = 1;
   std::vector<double> f_n;  ///< along the contact normal, resisting positive; the first at the event's tick
 };
@@ -152,7 +130,10 @@ using Event = decltype(either(RunnerEvent(), StationEvent()));
 
 /// Whether the motion gives it.
 [[nodiscard]] inline bool is_runners(const Event& e) noexcept { return e.index() < std::variant_size_v<RunnerEvent>; }
+/// As files name it.
 [[nodiscard]] const char* kind_of(const Event& event);
+/// As people do: "pedal lost".
+[[nodiscard]] Term word_of(const Event& event);
 
 struct TimedEvent {
   std::int64_t tick = 0;  ///< of the exam, from 0

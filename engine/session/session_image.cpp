@@ -9,6 +9,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/scratch_folder.h"
+#include "engine/base/system_error.h"
 #include "engine/session/sqlite.h"
 
 namespace cavum {
@@ -19,7 +20,8 @@ constexpr char k_magic[] = "SQLite format 3";  // 16 bytes with its zero
 
 void check_file(const std::string& path) {
   struct stat info {};
-  if (::stat(path.c_str(), &info) != 0) throw Error(path, msg("cannot be opened ({})", std::strerror(errno)), msg("check the path"));
+  if (::stat(path.c_str(), &info) != 0)
+    throw Error(system_code(errno), Name{path}, msg("cannot be opened ({})", system_words(errno)), msg("check the path"));
   if (!S_ISREG(info.st_mode)) throw Error(path, msg("is not a regular file"), msg("name a session file"));
   if (info.st_size > k_largest_file) throw Error(path, msg("is larger than any session"), msg("name a session file"));
 }

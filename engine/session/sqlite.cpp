@@ -1,11 +1,11 @@
 #include "engine/session/sqlite.h"
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <new>
 #include <thread>
 
+#include "engine/base/system_error.h"
 #include "engine/base/write_file.h"
 #include "engine/session/lock_holder.h"
 
@@ -29,7 +29,7 @@ constexpr int k_max_calls = 2000;
       break;
     case SQLITE_IOERR:
       refusal.fault = DiskFault::input_output;
-      if (system_error != 0) detail = msg("{} ({})", what, std::strerror(system_error));
+      if (system_error != 0) detail = msg("{} ({})", what, system_words(system_error));
       to_do = msg("make room on the disk, check that it is still there, and try again: nothing recorded so far is lost");
       break;
     case SQLITE_BUSY:

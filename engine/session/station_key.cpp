@@ -7,12 +7,12 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
+#include "engine/base/system_error.h"
 
 namespace cavum {
 namespace {
@@ -26,7 +26,7 @@ void start_sodium() {
 // link() makes the complete file appear in one step and never replaces a key that another process just made.
 void make_key(const std::string& path, const std::string& owner) {
   const auto fail = [&](const Message& what) {
-    throw Error(path, msg("{} ({})", what, std::strerror(errno)), msg("make its folder writable, or set CAVUM_HOME to a folder that is"));
+    throw Error(path, msg("{} ({})", what, system_words(errno)), msg("make its folder writable, or set CAVUM_HOME to a folder that is"));
   };
   make_private_folder(std::filesystem::path(path).parent_path().string());
   std::array<std::uint8_t, crypto_sign_SEEDBYTES> seed{};

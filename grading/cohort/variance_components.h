@@ -11,12 +11,14 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/named_enum.h"
 #include "grading/cohort/mark_shares.h"
 
 namespace cavum::cohort {
 
-/// Why marks tell nothing of how dependable they are.
-enum class StudyError : std::uint8_t { all_alike, conditions_alone, effects_not_apart };
+// Why marks tell nothing of how dependable they are.
+#define CAVUM_STUDY_ERRORS(ERROR) ERROR(all_alike) ERROR(conditions_alone) ERROR(effects_not_apart)
+CAVUM_NAMED_ENUM(StudyError, CAVUM_STUDY_ERRORS)
 
 /// Everybody under every condition: each set of facets is an effect. One to four facets beside the persons, else Error.
 [[nodiscard]] StudyDesign crossed_design(std::vector<std::string> facets);

@@ -39,9 +39,9 @@ void LossFinder::find() {
   value_and_work();
 }
 
-void LossFinder::fact(const Message& what, std::optional<double> amount, const std::string& unit, const Trace& t, double bound) {
+void LossFinder::fact(Facts facts, std::optional<double> amount, const std::string& unit, const Trace& t, double bound) {
   WhyItem item;
-  item.what = what;
+  item.facts = std::move(facts);
   item.amount = amount;
   if (bound > 0) item.bound = bound;
   item.unit = unit;
@@ -84,11 +84,12 @@ void LossFinder::removed_moments(std::vector<WhyItem> items) {
       const double now = before + *i.amount;
       i.points_lost = points_at(before) - points_at(now);
       if (now <= spec_.full)
-        i.what = msg("{}, within the {} that cost nothing", i.what, as_mm3(spec_.full, 2));
+        i.facts.emplace_back("within_free", std::vector{"free"}, msg("within the {} that cost nothing", as_mm3(spec_.full, 2)));
       else if (before < spec_.full)
-        i.what = msg("{}, of it {} beyond the {} that cost nothing", i.what, as_mm3(now - spec_.full, 3), as_mm3(spec_.full, 2));
+        i.facts.emplace_back("partly_free", std::vector{"beyond", "free"},
+                             msg("{} of it beyond the {} that cost nothing", as_mm3(now - spec_.full, 3), as_mm3(spec_.full, 2)));
       else if (before >= spec_.zero)
-        i.what = msg("{}, beyond the {} at which no points are left", i.what, as_mm3(spec_.zero, 2));
+        i.facts.emplace_back("no_points_left", std::vector{"zero"}, msg("beyond the {} at which no points are left", as_mm3(spec_.zero, 2)));
       before = now;
     }
   }
@@ -125,10 +126,9 @@ void LossFinder::missed(double points) {
     const Trace& last = r_.volumes.target_last[w];
     const Term wall = scenarios::wall_text(w, r_.shape.facing);
     const Vec3 middle_mm = p.sum > 0 ? p.middle / p.sum : Vec3();
-    fact(p.sum > 0        ? last.tick >= 0 ? msg("target left towards {}, its middle at {}; cut there last at this time", wall, middle_mm)
-                                           : msg("target left towards {}, its middle at {}; nothing of it was cut there", wall, middle_mm)
-                : last.tick >= 0 ? msg("target left towards {}; cut there last at this time", wall)
-                          : msg("target left towards {}; nothing of it was cut there", wall),
+    fact({p.sum > 0 ? Fact("target_left", {"wall", "middle"}, msg("target left towards {}, its middle at {}", wall, middle_mm))
+                    : Fact("target_left_at", {"wall"}, msg("target left towards {}", wall)),
+          last.tick >= 0 ? Fact("cut_last", msg("cut there last at this time")) : Fact("never_cut", msg("nothing of it was cut there"))},
          mm3, "mm3", last.tick >= 0 ? last : r_.end, r_.volumes.missed_bound_by_wall_mm3[w]);
     if (r_.volumes.missed.mm3 > 0) why_.items.back().points_lost = points * mm3 / r_.volumes.missed.mm3;
     if (mm3 >= k_min_moment_mm3) continue;
@@ -145,17 +145,19 @@ void LossFinder::walls(std::size_t first, std::size_t end, std::optional<scenari
     const WallMeasures& m = r_.shape.wall[w];
     const Term wall = scenarios::wall_text(w, r_.shape.facing);
     if (m.samples == 0 && !(m.max_over_mm > 0)) {
-      fact(msg("{}: nothing was cut there", wall));
+      fact({{"wall_uncut", {"wall"}, msg("{}: nothing was cut there", wall)}});
       continue;
     }
-    fact(msg("{}: mean {}, 95th percentile {}, of {} places (+ = overcut)", wall, as_mm(m.mean_mm, 2, m.mean_bound_mm),
-             as_mm(m.p95_mm, 2, m.p95_bound_mm), m.samples));
+    fact({{"wall_figures",
+           {"wall", "mean", "p95", "places"},
+           msg("{}: mean {}, 95th percentile {}, of {} places (+ = overcut)", wall, as_mm(m.mean_mm, 2, m.mean_bound_mm),
+               as_mm(m.p95_mm, 2, m.p95_bound_mm), m.samples)}});
     if (m.worst_over.tick >= 0 && !under && m.max_over_mm > full)
-      fact(msg("{}: furthest overcut", wall), m.max_over_mm, "mm", m.worst_over, r_.shape.bound_mm);
+      fact({{"overcut_furthest", {"wall"}, msg("{}: furthest overcut", wall)}}, m.max_over_mm, "mm", m.worst_over, r_.shape.bound_mm);
     if (over || m.max_under_mm <= full) continue;
     const bool cut = m.worst_under.tick >= 0;
-    fact(cut ? msg("{}: most left standing, seen from the surface cut here", wall)
-             : msg("{}: most left standing, at {}, where nothing was cut", wall, m.worst_under.site_mm),
+    fact({cut ? Fact("most_left", {"wall"}, msg("{}: most left standing, seen from the surface cut here", wall))
+              : Fact("most_left_uncut", {"wall", "site"}, msg("{}: most left standing, at {}, where nothing was cut", wall, m.worst_under.site_mm))},
          m.max_under_mm, "mm", m.worst_under, r_.shape.bound_mm);
   }
   if (under) return;
@@ -181,7 +183,7 @@ void LossFinder::dice() {
 
 void LossFinder::overhang() {
   const AccessMeasures& a = r_.access;
-  if (!a.overhang) return fact(msg("this target opens nothing that could be overhung"));
+  if (!a.overhang) return fact({{"no_overhang", msg("this target opens nothing that could be overhung")}});
   const double lost = a.overhang->mm3 > 0 ? (spec_.points - why_.criterion.points) / a.overhang->mm3 : 0.0;
   std::vector<WhyItem> items = overhang_moments(in_, end_, a);
   for (auto& i : items) i.points_lost = lost * *i.amount;
@@ -191,11 +193,14 @@ void LossFinder::overhang() {
 void LossFinder::canals() {
   double covered = 0;
   for (const auto& p : r_.access.canal_mouths) covered += p.part;
-  if (!(covered > 0)) return fact(msg("no canal's mouth has hard tissue on the straight line out"));
+  if (!(covered > 0)) return fact({{"canals_open", msg("no canal's mouth has hard tissue on the straight line out")}});
   for (const auto& p : r_.access.canal_mouths) {
     if (!(p.part > 0)) continue;
     const Trace last = last_cut_near(in_, end_, p.middle_mm);
-    fact(msg("so much of a canal's mouth is covered by hard tissue on the straight line out, its middle at {}; {}", p.middle_mm, last_cut_text(last)),
+    fact({{"canal_covered",
+           {"middle"},
+           msg("so much of a canal's mouth is covered by hard tissue on the straight line out, its middle at {}", p.middle_mm)},
+          last_cut(last)},
          100 * p.part / p.whole, "%", last);
     if (last.tick < 0) why_.items.back().site_mm = p.middle_mm;
     why_.items.back().points_lost = (spec_.points - why_.criterion.points) * p.part / covered;
@@ -206,7 +211,7 @@ void LossFinder::canals() {
 void LossFinder::value_and_work() {
   const CriterionResult& c = why_.criterion;
   if (!c.value) {
-    fact(msg("cannot be measured on this cavity"), {}, "", r_.end);
+    fact({{"not_measured", msg("cannot be measured on this cavity")}}, {}, "", r_.end);
     why_.items.back().points_lost = spec_.points;
     return;
   }
@@ -216,14 +221,15 @@ void LossFinder::value_and_work() {
   const double by_value = spec_.points - c.points - by_work - accounted;
   if (by_value > 1e-9) {
     const Number full{spec_.full, unit_of(c.unit).value_or(Unit::none), 2};
-    fact(*c.value < spec_.full ? msg("short of {}, which gives full marks", full) : msg("beyond {}, which gives full marks", full),
+    fact({*c.value < spec_.full ? Fact("short_of_full", {"full"}, msg("short of {}, which gives full marks", full))
+                                : Fact("beyond_full", {"full"}, msg("beyond {}, which gives full marks", full))},
          std::fabs(*c.value - spec_.full), c.unit, c.first, c.bound);
     why_.items.back().points_lost = by_value;
   }
   if (by_work > 1e-9) {
     const auto part = std::find_if(c.facts.begin(), c.facts.end(),
                                    [](const Finding& f) { return f.kind == FindingKind::part_counts || f.kind == FindingKind::part_towards_counts; });
-    fact(part->message(), {}, "", r_.end);
+    fact({fact_of(*part)}, {}, "", r_.end);
     why_.items.back().points_lost = by_work;
   }
 }
@@ -232,21 +238,26 @@ void LossFinder::steps() {
   std::int64_t last = 0;
   for (const auto& e : in_.events) {
     if (e.as<Overruns>() != nullptr) continue;  // late ticks of the computer, in nearly every second of a slow one: nothing that a candidate did
-    std::string kind = kind_of(e.event);
-    std::replace(kind.begin(), kind.end(), '_', ' ');
-    const Term word{kind};
-    const Message what = std::visit(
-        EachKind{[&](const AnyOf<StepStarted, StepCompleted, StepFailed, StepTimeUp> auto& of) { return msg("{} ({})", word, of.step + 1LL); },
-                 [&](const AnyOf<AimReached, Perforated> auto& of) { return msg("{} ({})", word, Term{in_.before.tissue_name(of.tissue)}); },
-                 [&](const Finished& of) { return msg("{} ({})", word, Term{finish_name(of.how)}); },
+    const char* kind = kind_of(e.event);
+    const Term word = word_of(e.event);
+    const Fact what = std::visit(
+        EachKind{[&](const AnyOf<StepStarted, StepCompleted, StepFailed, StepTimeUp> auto& of) {
+                   return Fact(kind, {"event", "step"}, msg("{} ({})", word, of.step + 1LL));
+                 },
+                 [&](const AnyOf<AimReached, Perforated> auto& of) {
+                   return Fact(kind, {"event", "tissue"}, msg("{} ({})", word, Term{in_.before.tissue_name(of.tissue)}));
+                 },
+                 [&](const Finished& of) {
+                   return Fact(kind, {"event", "how"}, msg("{} ({})", word, Term{finish_name(of.how)}));
+                 },
                  [&](const AnyOf<TimeUp, BurNotAllowed, OverSpeed, PauseStarted, PauseEnded, PauseRefused, HoldStarted, HoldEnded, RecordingGap,
                                  RecordingMoved, ServoGap, Overruns, StylusSilent, StylusBack, PedalLost, PedalBack, ServoStopped, ServoDisagrees,
                                  ServoLateness, WorkAfterEnd, LockAttempt, OfficeHold, OfficeHoldReleased, Announced, AnnouncementRead, TutorialStep,
-                                 MeasuredForce> auto&) { return msg("{}", word); }},
+                                 MeasuredForce> auto&) { return Fact(kind, {"event"}, msg("{}", word)); }},
         e.event);
     WhyItem item;
     item.tick = item.end_tick = e.tick;
-    item.what = msg("{}, so long after the event before", what);
+    item.facts = {what, {"since_event_before", msg("so long after the event before")}};
     item.amount = static_cast<double>(e.tick - last) * k_tick_s;
     item.unit = "s";
     if (e.tick < static_cast<std::int64_t>(in_.inputs.size()) && e.tick >= 0) item.site_mm = in_.inputs[static_cast<std::size_t>(e.tick)].tip_mm();
@@ -257,32 +268,48 @@ void LossFinder::steps() {
 
 void LossFinder::perforation() {
   const PerforationMeasures& p = r_.perforation;
-  const auto truth = [&](const Message& kind, const PerforationTruth& t) {
-    if (t.outside_mm3 > 0) fact(msg("tissue: removed from outside the tooth, which is no perforation"), t.outside_mm3, "mm3", t.first_outside);
-    if (!t.perforated) return fact(msg("tissue: {} not opened", kind));
-    fact(msg("tissue: {}, {} first opened here; of its wall in all", kind, Term{t.tissue}), t.area_mm2, "mm2", t.first, t.area_bound_mm2);
-    fact(msg("tissue: {}, removed from the cavity", kind), t.volume_mm3, "mm3", {}, t.bound_mm3);
-    if (t.drop) fact(msg("drop: {}, {}", kind, drop_text(*t.drop)), t.drop->missing_n, "N", {t.drop->from_tick, t.drop->site_mm});
+  const Term fault{said("fault")}, aim{said("aim")};
+  const auto truth = [&](const Term& kind, const PerforationTruth& t) {
+    if (t.outside_mm3 > 0)
+      fact({{"removed_from_outside", msg("tissue: removed from outside the tooth, which is no perforation")}}, t.outside_mm3, "mm3", t.first_outside);
+    if (!t.perforated) return fact({{"not_opened", {"of"}, msg("tissue: {} not opened", kind)}});
+    fact({{"opened", {"of", "tissue"}, msg("tissue: {}, {} first opened here; of its wall in all", kind, Term{t.tissue})}}, t.area_mm2, "mm2",
+         t.first, t.area_bound_mm2);
+    fact({{"removed_behind", {"of"}, msg("tissue: {}, removed from the cavity", kind)}}, t.volume_mm3, "mm3", {}, t.bound_mm3);
+    if (t.drop)
+      fact({{"force_drop", {"of", "drop"}, msg("drop: {}, {}", kind, drop_text(*t.drop))}}, t.drop->missing_n, "N",
+           {t.drop->from_tick, t.drop->site_mm});
   };
-  truth(msg("fault"), p.fault);
-  if (p.has_aims) truth(msg("aim"), p.aim);
-  if (p.events.empty()) fact(msg("force: no breakthrough seen"));
-  if (p.aim_unseen()) fact(msg("force: the breakthrough into the aim was not seen, which costs nothing"));
+  truth(fault, p.fault);
+  if (p.has_aims) truth(aim, p.aim);
+  if (p.events.empty()) fact({{"no_breakthrough_seen", msg("force: no breakthrough seen")}});
+  if (p.aim_unseen()) fact({{"aim_unseen", msg("force: the breakthrough into the aim was not seen, which costs nothing")}});
   for (const auto& e : p.events) {
-    const Message kind = e.fault ? msg("fault") : msg("aim");
+    const Term& kind = e.fault ? fault : aim;
     const Number before = as_n(e.force_before_n, 2), after = as_n(e.force_after_n, 2), way = as_mm(e.advance_mm, 2);
-    fact(e.confirmed ? msg("force: {}, a fall from {} to {} while the tip went on by {}; confirmed by the tissue", kind, before, after, way)
-                     : msg("force: {}, a fall from {} to {} while the tip went on by {}; not confirmed by the tissue", kind, before, after, way),
+    const std::vector<const char*> names{"of", "before", "after", "way"};
+    fact({e.confirmed
+              ? Fact("force_fell_confirmed", names,
+                     msg("force: {}, a fall from {} to {} while the tip went on by {}; confirmed by the tissue", kind, before, after, way))
+              : Fact("force_fell_unconfirmed", names,
+                     msg("force: {}, a fall from {} to {} while the tip went on by {}; not confirmed by the tissue", kind, before, after, way))},
          e.force_before_n - e.force_after_n, "N", {e.tick, e.site_mm});
     why_.items.back().end_tick = e.seen_tick;
   }
-  fact(p.agree() ? msg("force and tissue agree about faults") : msg("force and tissue disagree about faults"));
+  fact({p.agree() ? Fact("force_and_tissue_agree", msg("force and tissue agree about faults"))
+                  : Fact("force_and_tissue_disagree", msg("force and tissue disagree about faults"))});
 }
 
 void LossFinder::shape(Extent extent, std::optional<double> found, double wanted, std::optional<double> error) {
   const bool deep = extent == Extent::depth, along_x = extent == Extent::length;
-  fact(deep ? msg("depth of the cavity") : along_x ? msg("length of the cavity") : msg("width of the cavity"), found, "mm", {}, r_.shape.bound_mm);
-  fact(deep ? msg("depth of the target") : along_x ? msg("length of the target") : msg("width of the target"), wanted, "mm");
+  fact({deep      ? Fact("cavity_depth", msg("depth of the cavity"))
+        : along_x ? Fact("cavity_length", msg("length of the cavity"))
+                  : Fact("cavity_width", msg("width of the cavity"))},
+       found, "mm", {}, r_.shape.bound_mm);
+  fact({deep      ? Fact("target_depth", msg("depth of the target"))
+        : along_x ? Fact("target_length", msg("length of the target"))
+                  : Fact("target_width", msg("width of the target"))},
+       wanted, "mm");
   // the leaves at the ends tell when that was cut
   struct End {
     scenarios::Wall wall;
@@ -304,17 +331,18 @@ void LossFinder::shape(Extent extent, std::optional<double> found, double wanted
       t = {r.tick, at};
     }
     if (t.tick >= 0)
-      fact(deep ? msg("deepest place removed, from the tooth's origin") : msg("furthest {} place removed, from the tooth's origin", name), most, "mm",
-           t);
+      fact({deep ? Fact("deepest_removed", msg("deepest place removed, from the tooth's origin"))
+                 : Fact("furthest_removed", {"end"}, msg("furthest {} place removed, from the tooth's origin", name))},
+           most, "mm", t);
     if (deep || !error) continue;
     const auto& e = r_.shape.end_error[static_cast<std::size_t>(end.wall)];
     const Number beyond = as_mm(std::fabs(e.beyond_mm), 2);
-    fact(e.beyond_mm >= 0 ? msg("missing or too much at the {} end, {} too far", name, beyond)
-                          : msg("missing or too much at the {} end, {} short", name, beyond),
+    fact({e.beyond_mm >= 0 ? Fact("end_too_far", {"end", "by"}, msg("missing or too much at the {} end, {} too far", name, beyond))
+                           : Fact("end_short", {"end", "by"}, msg("missing or too much at the {} end, {} short", name, beyond))},
          e.part_mm, "mm", t, r_.shape.bound_mm);
     if (*error > 0) why_.items.back().points_lost = (points_at(spec_.full) - why_.criterion.points) * e.part_mm / *error;
   }
-  if (deep) fact(msg("missing and too much together"), error, "mm", {}, 2 * r_.shape.bound_mm);
+  if (deep) fact({{"depth_error", msg("missing and too much together")}}, error, "mm", {}, 2 * r_.shape.bound_mm);
 }
 
 void LossFinder::missed_target() { missed(spec_.points - why_.criterion.points); }
@@ -331,13 +359,13 @@ void LossFinder::width() { shape(Extent::width, r_.shape.width_mm, r_.shape.targ
 void LossFinder::depth() { shape(Extent::depth, r_.shape.depth_mm, r_.shape.target_depth_mm, r_.shape.depth_error_mm); }
 
 void LossFinder::taper() {
-  fact(msg("mean slope of the side walls"), r_.shape.taper_deg, "deg", {}, r_.shape.taper_bound_deg);
+  fact({{"taper", msg("mean slope of the side walls")}}, r_.shape.taper_deg, "deg", {}, r_.shape.taper_bound_deg);
   walls(0, scenarios::k_side_walls, {});
 }
 
 void LossFinder::taper_error() {
-  fact(msg("mean slope of the side walls"), r_.shape.taper_deg, "deg", {}, r_.shape.taper_bound_deg);
-  fact(msg("mean slope of the target's side walls"), r_.access.target_taper_deg, "deg", {}, r_.access.target_taper_bound_deg);
+  fact({{"taper", msg("mean slope of the side walls")}}, r_.shape.taper_deg, "deg", {}, r_.shape.taper_bound_deg);
+  fact({{"target_taper", msg("mean slope of the target's side walls")}}, r_.access.target_taper_deg, "deg", {}, r_.access.target_taper_bound_deg);
   walls(0, scenarios::k_side_walls, {});
 }
 
@@ -352,12 +380,15 @@ void LossFinder::floor_cut() {
 void LossFinder::dentin_over_pulp() {
   const OverPulpMeasures& o = r_.over_pulp;
   if (!o.dentin_mm) return;
-  fact(*o.dentin_mm > 0 ? msg("left over the pulp's wall at {}", o.pulp_mm) : msg("the pulp was opened"), o.dentin_mm, "mm", o.thinnest, o.bound_mm);
+  fact({*o.dentin_mm > 0 ? Fact("dentin_left", {"pulp"}, msg("left over the pulp's wall at {}", o.pulp_mm))
+                         : Fact("pulp_opened", msg("the pulp was opened"))},
+       o.dentin_mm, "mm", o.thinnest, o.bound_mm);
 }
 
 void LossFinder::nick() {
   const BesideMeasures& b = r_.beside;
-  if (b.deepest.tick >= 0) fact(msg("cut deepest into a neighbour here"), b.nick_depth_mm, "mm", b.deepest, b.nick_depth_bound_mm);
+  if (b.deepest.tick >= 0)
+    fact({{"neighbour_cut", msg("cut deepest into a neighbour here")}}, b.nick_depth_mm, "mm", b.deepest, b.nick_depth_bound_mm);
   removed_moments(whole_leaves([&](const RemovedAt& r) { return in_.beside != nullptr && in_.beside->apart.of_neighbours[r.leaf.tissue]; }));
 }
 
@@ -365,8 +396,8 @@ void LossFinder::clearance() {
   const BesideMeasures& b = r_.beside;
   if (!b.clearance_mm) return;
   const Trace last = last_cut_near(in_, end_, b.clearance_from_mm);
-  fact(msg("from {} to the neighbour's {}; {}", b.clearance_from_mm, b.clearance_to_mm, last_cut_text(last)), b.clearance_mm, "mm", last,
-       b.clearance_bound_mm);
+  fact({{"clearance", {"site", "neighbour"}, msg("from {} to the neighbour's {}", b.clearance_from_mm, b.clearance_to_mm)}, last_cut(last)},
+       b.clearance_mm, "mm", last, b.clearance_bound_mm);
 }
 
 void LossFinder::gum() {
@@ -381,19 +412,19 @@ void LossFinder::tissue() {
 }
 
 void LossFinder::time() {
-  fact(msg("time that counts, pauses taken off"), r_.motion.time_s, "s");
-  fact(msg("neither moving nor cutting"), r_.motion.idle_s, "s");
+  fact({{"time", msg("time that counts, pauses taken off")}}, r_.motion.time_s, "s");
+  fact({{"idle", msg("neither moving nor cutting")}}, r_.motion.idle_s, "s");
   steps();
   list_largest(idle_moments(in_, end_, r_.pauses));
 }
 
 void LossFinder::handpiece_time() {
   list_largest(tick_stretches(
-      in_, end_, [&](std::int64_t i) { return record(i).rpm >= k_turning_rpm; }, 0, msg("the handpiece turned"), Stretch::duration));
+      in_, end_, [&](std::int64_t i) { return record(i).rpm >= k_turning_rpm; }, 0, {"turned", msg("the handpiece turned")}, Stretch::duration));
 }
 
 void LossFinder::idle() {
-  fact(msg("neither moving nor cutting"), r_.motion.idle_s, "s");
+  fact({{"idle", msg("neither moving nor cutting")}}, r_.motion.idle_s, "s");
   list_largest(idle_moments(in_, end_, r_.pauses));
 }
 
@@ -401,10 +432,10 @@ void LossFinder::force() { pressed_above(spec_.full); }
 void LossFinder::force_over_limit() { pressed_above(in_.scenario.force_limit_n); }
 
 void LossFinder::pressed_above(double force) {
-  if (r_.motion.force_peak.tick >= 0) fact(msg("pressed hardest"), r_.motion.force_peak_n, "N", r_.motion.force_peak);
+  if (r_.motion.force_peak.tick >= 0) fact({{"pressed_hardest", msg("pressed hardest")}}, r_.motion.force_peak_n, "N", r_.motion.force_peak);
   list_largest(tick_stretches(
-      in_, end_, [&](std::int64_t i) { return force_n(record(i)) > force; }, k_moment_gap_ticks, msg("pressed with more than {}", as_n(force, 2)),
-      Stretch::peak_force));
+      in_, end_, [&](std::int64_t i) { return force_n(record(i)) > force; }, k_moment_gap_ticks,
+      {"pressed_above", {"limit"}, msg("pressed with more than {}", as_n(force, 2))}, Stretch::peak_force));
 }
 
 }  // namespace cavum::grading

@@ -50,7 +50,7 @@ class LossFinder {
 #undef DECLARED
 
  private:
-  void fact(const Message& what, std::optional<double> amount = {}, const std::string& unit = "", const Trace& t = {}, double bound = 0);
+  void fact(Facts facts, std::optional<double> amount = {}, const std::string& unit = "", const Trace& t = {}, double bound = 0);
   /// Points that a value of the metric is worth.
   [[nodiscard]] double points_at(double value) const;
   void removed_moments(std::vector<WhyItem> items);

@@ -19,7 +19,7 @@ struct Moment {
   IVec3 at;
 };
 
-Message text_of(const Moment& m, scenarios::Facing facing) {
+Facts facts_of(const Moment& m, scenarios::Facing facing) {
   const auto at = static_cast<std::size_t>(std::max_element(m.by_wall.begin(), m.by_wall.end()) - m.by_wall.begin());
   std::vector<std::size_t> zones;
   for (std::size_t z = 0; z < scenarios::k_zones; ++z)
@@ -28,19 +28,22 @@ Message text_of(const Moment& m, scenarios::Facing facing) {
   const Term wall = scenarios::wall_text(at, facing);
   const auto name = [](std::size_t zone) { return Term{scenarios::zone_name(static_cast<scenarios::Zone>(zone))}; };
   const auto outside = [](std::size_t zone) { return static_cast<scenarios::Zone>(zone) == scenarios::Zone::none; };
-  Message text;
-  if (zones.size() == 1) {
-    text = outside(zones[0]) ? msg("removed outside all zones, the largest part at {}", wall)
-                             : msg("removed in {}, the largest part at {}", name(zones[0]), wall);
+  Facts facts;
+  if (zones.size() == 1 && outside(zones[0])) {
+    facts.emplace_back("removed_outside", std::vector{"wall"}, msg("removed outside all zones, the largest part at {}", wall));
+  } else if (zones.size() == 1) {
+    facts.emplace_back("removed_in_zone", std::vector{"zone", "wall"}, msg("removed in {}, the largest part at {}", name(zones[0]), wall));
   } else {
     List parts;
     for (const std::size_t z : zones) {
       const Number volume = as_mm3(m.by_zone[z], 3);
       parts.items.push_back(outside(z) ? msg("{} outside all zones", volume) : msg("{} in {}", volume, name(z)));
     }
-    text = msg("removed {}, the largest part at {}", parts, wall);
+    facts.emplace_back("removed_in_zones", std::vector{"zones", "wall"}, msg("removed {}, the largest part at {}", parts, wall));
   }
-  return m.furthest_mm > 0 ? msg("{}, at the furthest {} beyond the target", text, as_mm(m.furthest_mm, 2)) : text;
+  if (m.furthest_mm > 0)
+    facts.emplace_back("beyond_target", std::vector{"furthest"}, msg("the furthest {} beyond the target", as_mm(m.furthest_mm, 2)));
+  return facts;
 }
 
 }  // namespace
@@ -70,7 +73,7 @@ std::vector<WhyItem> removal_moments(const scenarios::ZoneMap& zones, std::vecto
     item.amount = m.sum;
     item.bound = m.bound;
     item.unit = "mm3";
-    item.what = text_of(m, zones.facing());
+    item.facts = facts_of(m, zones.facing());
     items.push_back(std::move(item));
   }
   return items;
@@ -87,7 +90,7 @@ std::vector<WhyItem> removal_moments(const GradeInput& input, std::int64_t end, 
 }
 
 std::vector<WhyItem> tick_stretches(const GradeInput& input, std::int64_t end, const std::function<bool(std::int64_t)>& counts, std::int64_t gap,
-                                    const Message& what, Stretch amount) {
+                                    const Fact& what, Stretch amount) {
   std::vector<WhyItem> items;
   std::int64_t held = 0;
   double peak = 0;
@@ -97,7 +100,7 @@ std::vector<WhyItem> tick_stretches(const GradeInput& input, std::int64_t end, c
     const double held_s = static_cast<double>(held) * k_tick_s;
     i.amount = amount == Stretch::peak_force ? peak : held_s;
     i.unit = amount == Stretch::peak_force ? "N" : "s";
-    if (amount == Stretch::peak_force) i.what = msg("{}, {} of it; the peak is given", i.what, as_s(held_s, 3));
+    if (amount == Stretch::peak_force) i.facts.emplace_back("held", std::vector{"held"}, msg("for {} in all; the peak is given", as_s(held_s, 3)));
   };
   const auto n = std::min<std::int64_t>(end, static_cast<std::int64_t>(input.inputs.size()));
   for (std::int64_t i = 0; i < n; ++i) {
@@ -108,7 +111,7 @@ std::vector<WhyItem> tick_stretches(const GradeInput& input, std::int64_t end, c
       peak = 0;
       items.emplace_back();
       items.back().tick = i;
-      items.back().what = what;
+      items.back().facts = {what};
     }
     items.back().end_tick = i;
     ++held;
@@ -129,7 +132,7 @@ std::vector<WhyItem> idle_moments(const GradeInput& input, std::int64_t end, con
     WhyItem item;
     item.tick = span.begin;
     item.end_tick = span.end - 1;
-    item.what = msg("neither moved nor cut");
+    item.facts = {{"idle", msg("neither moved nor cut")}};
     item.amount = static_cast<double>(span.end - span.begin) * k_tick_s;
     item.unit = "s";
     item.site_mm = input.inputs[static_cast<std::size_t>(span.begin)].tip_mm();
@@ -145,8 +148,9 @@ Trace last_cut_near(const GradeInput& input, std::int64_t end, Vec3 place_mm) {
   return {};
 }
 
-Message last_cut_text(const Trace& last) {
-  return last.tick >= 0 ? msg("cut last within a millimetre of it") : msg("nothing was cut within a millimetre of it");
+Fact last_cut(const Trace& last) {
+  return last.tick >= 0 ? Fact("cut_near", msg("cut last within a millimetre of it"))
+                        : Fact("nothing_cut_near", msg("nothing was cut within a millimetre of it"));
 }
 
 std::vector<WhyItem> overhang_moments(const GradeInput& input, std::int64_t end, const AccessMeasures& access) {
@@ -154,7 +158,7 @@ std::vector<WhyItem> overhang_moments(const GradeInput& input, std::int64_t end,
   for (const auto& p : access.overhang_pieces) {
     WhyItem item;
     const Trace last = last_cut_near(input, end, p.middle_mm);
-    item.what = msg("roof left over the chamber, its middle at {}; {}", p.middle_mm, last_cut_text(last));
+    item.facts = {{"roof_left", {"middle"}, msg("roof left over the chamber, its middle at {}", p.middle_mm)}, last_cut(last)};
     item.tick = item.end_tick = last.tick;
     item.site_mm = last.tick >= 0 ? last.site_mm : p.middle_mm;
     item.amount = p.part;

@@ -21,14 +21,14 @@ namespace cavum::grading {
 enum class Stretch { duration, peak_force };
 /// Ticks before `end` that count, gathered while at most `gap` others lie between them; place = the tip where the force was largest.
 [[nodiscard]] std::vector<WhyItem> tick_stretches(const GradeInput& input, std::int64_t end, const std::function<bool(std::int64_t)>& counts,
-                                                  std::int64_t gap, const Message& what, Stretch amount);
+                                                  std::int64_t gap, const Fact& what, Stretch amount);
 
 /// Idle time in spans, which add up to it, s.
 [[nodiscard]] std::vector<WhyItem> idle_moments(const GradeInput& input, std::int64_t end, const std::vector<PauseMeasure>& pauses);
 
 /// The last leaf removed before tick `end` within a millimetre of a place; and whether there was one, in words.
 [[nodiscard]] Trace last_cut_near(const GradeInput& input, std::int64_t end, Vec3 place_mm);
-[[nodiscard]] Message last_cut_text(const Trace& last);
+[[nodiscard]] Fact last_cut(const Trace& last);
 /// Each piece of roof that was left, mm3, and when something was last cut near it.
 [[nodiscard]] std::vector<WhyItem> overhang_moments(const GradeInput& input, std::int64_t end, const AccessMeasures& access);
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/fact.h"
 #include "engine/base/lines.h"
 #include "grading/measures/grade_input.h"
 
@@ -20,7 +21,9 @@ struct WhyItem {
   std::optional<double> bound;  ///< the amount may be off by ± that; none where it is exact
   std::string unit;
   std::optional<double> points_lost;  ///< of this moment, where points follow from a sum over moments
-  Message what;
+  Facts facts;                        ///< the first is what it is
+  /// All of them.
+  [[nodiscard]] Message what() const;
 };
 
 struct Why {

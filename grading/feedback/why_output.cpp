@@ -1,7 +1,6 @@
 // What `grade --why` found, as JSON and as text.
 #include <nlohmann/json.hpp>
 
-#include "engine/base/message_json.h"
 #include "grading/feedback/why.h"
 #include "grading/measures/motion.h"
 #include "grading/result/loss.h"
@@ -13,10 +12,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 }
 
+Message WhyItem::what() const { return facts.size() == 1 ? facts[0].what() : msg("{}", List{words_of(facts), true}); }
+
 Json to_json(const Why& w) {
   const auto& c = w.criterion;
   Json items = Json::array(), facts = Json::array();
-  for (const Finding& f : c.facts) facts.push_back(to_json(f));
+  for (const Finding& f : c.facts) facts.push_back(fact_of(f));
   for (const auto& i : w.items) {
     const auto time = [](std::int64_t tick) { return tick < 0 ? Json(nullptr) : Json(rounded(static_cast<double>(tick) * k_tick_s)); };
     const auto number = [](const std::optional<double>& v) { return v ? Json(rounded(*v)) : Json(nullptr); };
@@ -29,8 +30,9 @@ Json to_json(const Why& w) {
                      {"bound", number(i.bound)},
                      {"unit", i.unit},
                      {"points_lost", number(i.points_lost)},
-                     {"values", values_json(i.what)},
-                     {"what", i.what}});
+                     {"facts", i.facts}});
+    items.back().update(Json(i.facts.at(0)));
+    items.back()["text"] = i.what();
   }
   return {{"criterion",
            {{"id", c.id},
@@ -71,7 +73,7 @@ Lines to_text(const Why& w) {
     out.row({i.tick < 0            ? Message()
              : i.end_tick > i.tick ? msg("{} to {}", seconds(i.tick), seconds(i.end_tick))
                                    : msg("{}", seconds(i.tick)),
-             i.amount ? msg("{}", Number{*i.amount, unit_of(i.unit).value_or(Unit::none), 3, i.bound.value_or(0)}) : Message(), i.what,
+             i.amount ? msg("{}", Number{*i.amount, unit_of(i.unit).value_or(Unit::none), 3, i.bound.value_or(0)}) : Message(), i.what(),
              i.site_mm ? msg("{}", *i.site_mm) : Message(), i.tick >= 0 ? msg("tick {}", i.tick) : Message(),
              i.points_lost ? msg("{} points", as_points(*i.points_lost, 2)) : Message()},
             2);

@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -19,6 +18,7 @@
 #include "engine/base/file.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
+#include "engine/base/system_error.h"
 #include "engine/base/text.h"
 #include "grading/pool/makers.h"
 
@@ -40,7 +40,7 @@ struct Said {
 /// Runs a program of the search path to its end. Throws Error when it is not there.
 Said run_program(std::vector<std::string> words) {
   int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) throw Error(words[0], Name{std::strerror(errno)}, msg("close other programs, and try again"));
+  if (::pipe2(ends, O_CLOEXEC) != 0) throw Error(words[0], system_words(errno), msg("close other programs, and try again"));
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
@@ -59,7 +59,7 @@ Said run_program(std::vector<std::string> words) {
     if (n > 0) said.text.append(some, static_cast<std::size_t>(n));
   ::close(ends[0]);
   if (failed != 0)
-    throw Error(words[0], failed == ENOENT ? msg("is not here: Slurm is not installed on this machine") : Message(Name{std::strerror(failed)}),
+    throw Error(words[0], failed == ENOENT ? msg("is not here: Slurm is not installed on this machine") : system_words(failed),
                 msg("install its client (Debian: slurm-client), or leave --slurm out"));
   int status = 0;
   while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {

@@ -11,28 +11,28 @@
 
 namespace cavum::records {
 
-/// Mistakes in rows of a list, each as an Error says it; the command line prints each on a line of its own.
+/// Mistakes in rows of a list; the command line prints each on a line of its own.
 class ListMistakes : public Error {
  public:
-  ListMistakes(const std::string& where, std::vector<Message> mistakes);
-  [[nodiscard]] const std::vector<Message>& mistakes() const noexcept { return mistakes_; }
+  ListMistakes(const std::string& where, std::vector<Error> mistakes);
+  [[nodiscard]] const std::vector<Error>& mistakes() const noexcept { return mistakes_; }
 
  private:
-  std::vector<Message> mistakes_;
+  std::vector<Error> mistakes_;
 };
 
 /// What is wrong with a list, row by row: it is told at once, so that it is put right at once.
 class Mistakes {
  public:
   explicit Mistakes(std::string where) : where_(std::move(where)) {}
-  /// Keeps what `check` throws as an Error; the first 20 with their words.
+  /// Keeps what `check` throws as an Error; the first 20 as they are.
   template <class Check>
   void unless(const Check& check) {
     try {
       check();
     } catch (const Error& wrong) {
       ++number_;
-      if (mistakes_.size() < k_most) mistakes_.push_back(wrong.message());
+      if (mistakes_.size() < k_most) mistakes_.push_back(wrong);
     }
   }
   /// Throws ListMistakes where there was one.
@@ -42,7 +42,7 @@ class Mistakes {
   static constexpr std::size_t k_most = 20;
   std::string where_;
   std::size_t number_ = 0;
-  std::vector<Message> mistakes_;
+  std::vector<Error> mistakes_;
 };
 
 struct Person {

@@ -43,7 +43,7 @@ std::vector<ToDecide> review_queue(const Registry& registry) {
     if (!s.undecided() || s.made_up_by || registry.chosen_instead_of(s) != nullptr) continue;
     const json& score = s.result->at("score");
     ToDecide d{s.seq, s.candidate, s.scenario_id, score.at("points").get<double>(), score.at("max").get<double>(), {}};
-    for (const grading::Finding& f : grading::findings_in(member_of(*s.result, "verdict_reasons"))) d.reasons.push_back(f.message());
+    for (const grading::Finding& f : grading::findings_in(member_of(*s.result, "verdict_reasons"))) d.reasons.push_back(grading::fact_of(f));
     queue.push_back(std::move(d));
   }
   return queue;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/fact.h"
 #include "grading/records/ledger.h"
 #include "grading/records/registry.h"
 #include "grading/result/result.h"
@@ -16,7 +17,7 @@ struct ToDecide {
   std::uint64_t session = 0;  ///< its entry
   std::string candidate, scenario_id;
   double points = 0.0, max = 0.0;
-  std::vector<Message> reasons;  ///< why the program does not decide, both opinions where force and tissue differ
+  Facts reasons;  ///< why the program does not decide, both opinions where force and tissue differ
 };
 /// In the order of the ledger. One of several endings of an exam that was not chosen is left out.
 [[nodiscard]] std::vector<ToDecide> review_queue(const Registry& registry);

@@ -7,10 +7,10 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <string>
 
 #include "engine/base/error.h"
+#include "engine/base/system_error.h"
 
 namespace cavum::records {
 
@@ -20,7 +20,7 @@ class FolderLock {
   FolderLock(const std::string& folder, const Message& what, const Message& what_to_do)
       : fd_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
     if (fd_ >= 0 && ::flock(fd_, LOCK_EX) == 0) return;
-    const std::string why = std::strerror(errno);
+    const Message why = system_words(errno);
     if (fd_ >= 0) ::close(fd_);
     throw Error(folder, msg("{} ({})", what, why), what_to_do);
   }

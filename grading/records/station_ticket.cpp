@@ -6,12 +6,12 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <optional>
 #include <sstream>
 
 #include "engine/base/file.h"
+#include "engine/base/system_error.h"
 #include "engine/base/text.h"
 #include "engine/session/station_check.h"
 #include "grading/records/begin.h"
@@ -108,7 +108,7 @@ class UsedTickets {
 
  private:
   [[noreturn]] void fail() const {
-    const std::string why = std::strerror(errno);
+    const Message why = system_words(errno);
     if (file_ >= 0) ::close(file_);
     throw Error(path_, msg("cannot remember which tickets were used ({})", why), msg("make the folder writable, and room on its disk"));
   }

@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <sstream>
 
 #include "engine/base/file.h"
 #include "engine/base/file_name.h"
+#include "engine/base/system_error.h"
 #include "engine/session/session.h"
 #include "grading/records/ledger_key.h"
 
@@ -61,7 +61,7 @@ void make_room_for_witness(const std::string& id, std::size_t lines) {
   const int why = errno;
   if (fd >= 0) ::close(fd);
   if (!held)
-    throw DatabaseError(path, msg("the ledger's witness has no room for a line ({})", std::strerror(why)),
+    throw DatabaseError(path, msg("the ledger's witness has no room for a line ({})", system_words(why)),
                         msg("make room on the disk, or the folder writable; nothing was entered"), DiskRefusal{});
 }
 
@@ -80,7 +80,7 @@ void tell_witness(const std::string& id, const Checkpoint& p) {
     sync_folder_of(std::filesystem::path(path).parent_path().string());
   }
   if (!told)
-    throw Error(path, msg("the entry is in the ledger, but its witness cannot be told ({})", std::strerror(why)),
+    throw Error(path, msg("the entry is in the ledger, but its witness cannot be told ({})", system_words(why)),
                 msg("make the folder writable; the next entry tells it again"));
 }
 

@@ -28,6 +28,13 @@ List sentences(const Findings& findings) {
   return all;
 }
 
+Fact fact_of(const Finding& f) {
+  const auto said = f.row().values.begin() + static_cast<std::ptrdiff_t>(f.row().gaps());
+  Fact fact(f.row().name, {f.row().values.begin(), said}, f.message());
+  for (std::size_t i = f.row().gaps(); i < f.values.size(); ++i) fact = std::move(fact).with(f.row().values[i], f.values[i]);
+  return fact;
+}
+
 nlohmann::ordered_json to_json(const Finding& f) {
   nlohmann::ordered_json values = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < f.values.size(); ++i) values[f.row().values[i]] = encode(f.values[i]);

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/message.h"
+#include "engine/base/fact.h"
 
 namespace cavum::grading {
 
@@ -195,6 +195,8 @@ template <FindingKind kind, class... A>
   return {kind, {finding_detail::as_sealed(message_detail::value_of(std::forward<A>(values)))...}};
 }
 
+/// With its words.
+[[nodiscard]] Fact fact_of(const Finding& finding);
 /// {"kind", "values"}: each value by its name as decode_value reads it. No words: what is sealed and compared.
 [[nodiscard]] nlohmann::ordered_json to_json(const Finding& finding);
 /// Reads what to_json wrote. Throws Error for anything else.

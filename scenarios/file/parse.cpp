@@ -26,10 +26,11 @@ void check_measure(CheckedTable& t, const std::string& metric) {
   if (metric.empty() || find_measure(metric)) return;
   const Message what = msg("there is no measure '{}'", metric);
   const std::string of_tissue = metric + "_mm3";
-  if (find_measure(of_tissue) && metric != "touched_") return t.problem("metric", what, msg("did you mean '{}'?", of_tissue), Mistake::unknown_name);
+  if (find_measure(of_tissue) && metric != "touched_")
+    return t.problem("metric", what, msg("did you mean '{}'?", of_tissue), Mistake::unknown_measure);
   std::vector<std::string> names;
   for (const auto& m : measures()) names.push_back(m.name);
-  t.problem("metric", what, suggestion(metric, names), Mistake::unknown_name);
+  t.problem("metric", what, suggestion(metric, names), Mistake::unknown_measure);
 }
 
 std::optional<double> number_if_there(CheckedTable& t, const char* key) {
@@ -121,7 +122,8 @@ void check_shares(const RubricSpec& r, ProblemList& problems) {
       for (const auto& other : r.criteria)
         if (other.id != c.id) others.push_back(other.id);
       if (std::find(others.begin(), others.end(), id) == others.end())
-        problems.add(c.metric_at, msg("'{}' shares with '{}', which is no other criterion", c.id, id), suggestion(id, others), Mistake::unknown_name);
+        problems.add(c.metric_at, msg("'{}' shares with '{}', which is no other criterion", c.id, id), suggestion(id, others),
+                     Mistake::unknown_criterion);
     }
 }
 
@@ -171,7 +173,7 @@ CarelessSpec read_careless(const toml::table& table, const Scenario& scenario, P
   std::vector<std::string> ids;
   for (const auto& criterion : scenario.rubric.criteria) ids.push_back(criterion.id);
   if (!c.fails_by.empty() && std::find(ids.begin(), ids.end(), c.fails_by) == ids.end())
-    t.problem("fails_by", msg("the rubric has no criterion '{}'", c.fails_by), suggestion(c.fails_by, ids), Mistake::unknown_name);
+    t.problem("fails_by", msg("the rubric has no criterion '{}'", c.fails_by), suggestion(c.fails_by, ids), Mistake::unknown_criterion);
   if (c.perforates && scenario.perforation.faults.empty())
     t.problem("perforates", msg("'perforates' is true, and no tissue is a fault"),
               msg("list what is broken into under faults of [perforation], or leave 'perforates' out"), Mistake::contradictory);
@@ -187,7 +189,7 @@ GaugeSpec read_gauges(CheckedTable& scenario) {
   const auto names = scenario.texts("gauges");
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (std::find(known.begin(), known.end(), names[i]) == known.end())
-      scenario.problem_in("gauges", i, msg("there is no gauge '{}'", names[i]), suggestion(names[i], known), Mistake::unknown_name);
+      scenario.problem_in("gauges", i, msg("there is no gauge '{}'", names[i]), suggestion(names[i], known), Mistake::unknown_gauge);
     gauges.speed |= names[i] == "speed";
     gauges.force |= names[i] == "force";
     gauges.depth |= names[i] == "depth";
@@ -363,7 +365,7 @@ std::string find_tooth_file(const Scenario& scenario) {
   for (const auto& data : shipped_folders()) places.push_back(data / "teeth" / written);
   for (const fs::path& candidate : places)
     if (fs::exists(candidate, unreadable)) return candidate.lexically_normal().string();
-  throw Error(Mistake::unknown_name, Name{scenario.path}, msg("the tooth file '{}' is nowhere to be found", scenario.tooth_file),
+  throw Error(Mistake::unknown_tooth, Name{scenario.path}, msg("the tooth file '{}' is nowhere to be found", scenario.tooth_file),
               msg("put it beside the scenario or in data/teeth, or name another with --tooth"));
 }
 
@@ -373,7 +375,7 @@ std::vector<Problem> missing_tissues(const Scenario& s, const Tooth& tooth) {
   std::vector<Problem> problems;
   const auto need = [&](const std::string& name, const std::string& place) {
     if (std::find(known.begin(), known.end(), name) == known.end())
-      problems.push_back(problem_at(s, place, msg("this tooth has no tissue '{}'", name), suggestion(name, known), Mistake::unknown_name));
+      problems.push_back(problem_at(s, place, msg("this tooth has no tissue '{}'", name), suggestion(name, known), Mistake::unknown_tissue));
   };
   for (const auto& [key, list] : {std::pair("perforation/aims/", &s.perforation.aims), std::pair("perforation/faults/", &s.perforation.faults)})
     for (std::size_t i = 0; i < list->size(); ++i) need((*list)[i], key + std::to_string(i));

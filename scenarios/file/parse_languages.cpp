@@ -31,7 +31,7 @@ Translations read_languages(CheckedTable& file, const Scenario& s, ProblemList& 
         !language.empty() && language.size() <= 3 && std::all_of(language.begin(), language.end(), [](char c) { return c >= 'a' && c <= 'z'; });
     if (!plain || language == "en" || node.as_table() == nullptr || all.size() >= k_max_languages) {
       problems.add(node.source(), msg("{} is no table of another language", name),
-                   msg("write for example [languages.de]; the texts of the scenario itself are English"), Mistake::unknown_name);
+                   msg("write for example [languages.de]; the texts of the scenario itself are English"), Mistake::unknown_language);
       continue;
     }
     CheckedTable t(*node.as_table(), name, problems);

@@ -33,7 +33,7 @@ void check_condition(CheckedTable& t, const char* key, const std::string& text) 
     for (const auto& used : names_in_expression(text)) {
       if (std::find(names.begin(), names.end(), used) != names.end()) continue;
       if (used.rfind("touched_", 0) != 0)
-        t.problem(key, msg("'{}' uses the unknown quantity '{}'", key, used), suggestion(used, names), Mistake::unknown_name);
+        t.problem(key, msg("'{}' uses the unknown quantity '{}'", key, used), suggestion(used, names), Mistake::unknown_quantity);
       known.push_back(used);
     }
     std::vector<double> values(known.size(), 0.0);

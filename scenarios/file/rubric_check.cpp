@@ -64,10 +64,10 @@ std::vector<Problem> not_in_this_exam(const RubricSpec& rubric, const Scenario& 
     const Measure measure = known_measure(c.metric);
     if (!measure.tissue.empty() && std::find(known.begin(), known.end(), c.metric) == known.end())
       problems.push_back(problem_of(rubric, c.metric_at, msg("'{}' measures no tissue of this tooth", c.metric), suggestion(c.metric, known),
-                                    Mistake::unknown_name));
+                                    Mistake::unknown_tissue));
     if (const Message what = lacking(measure.needs, scenario, tooth); !what.empty())
       problems.push_back(problem_of(rubric, c.metric_at, msg("'{}' measures nothing in this exam: {}", c.metric, what),
-                                    msg("take the criterion out, or choose a measure of what there is"), Mistake::unknown_name));
+                                    msg("take the criterion out, or choose a measure of what there is"), Mistake::unknown_measure));
   }
   return problems;
 }

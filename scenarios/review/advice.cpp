@@ -233,7 +233,7 @@ void Adviser::step_condition(std::size_t step, const char* key, const std::strin
   Ranges with_missing = ranges;
   for (const auto& name : names_in_expression(text)) {
     if (name.rfind("touched_", 0) != 0 || ranges.count(name) > 0) continue;
-    warn(place, msg("this tooth has no tissue '{}', so '{}' stays 0", name.substr(8), name), suggestion(name, known), Mistake::unknown_name);
+    warn(place, msg("this tooth has no tissue '{}', so '{}' stays 0", name.substr(8), name), suggestion(name, known), Mistake::unknown_tissue);
     with_missing[name] = {0, 0};
   }
   const Outlook outlook = judge_condition(text, with_missing);

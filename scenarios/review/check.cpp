@@ -19,8 +19,7 @@ namespace {
 /// An Error as a problem at `place`; where it names a line of the scenario itself, at that.
 Problem problem_of(const Error& e, const Scenario& s, const std::string& place) {
   Problem p = problem_at(s, place, e.problem(), e.advice());
-  for (int m = 0; m <= static_cast<int>(Mistake::faulty_preparations); ++m)
-    if (e.code() == static_cast<Mistake>(m)) p.mistake = static_cast<Mistake>(m);
+  p.mistake = e.code().as<Mistake>().value_or(p.mistake);
   if (const FilePlace* at = e.file_place(); at != nullptr && at->file == s.path && at->line > 0) p.where = *at;
   return p;
 }
@@ -40,7 +39,7 @@ std::vector<Bur> read_burs(const Scenario& s, std::vector<Problem>& problems) {
     } catch (const Error&) {
       const auto known = data_names("burs", s.path);
       problems.push_back(problem_at(s, place, msg("there is no bur '{}'", s.burs[i]),
-                                    known.empty() ? msg("set CAVUM_DATA to the data folder") : suggestion(s.burs[i], known), Mistake::unknown_name));
+                                    known.empty() ? msg("set CAVUM_DATA to the data folder") : suggestion(s.burs[i], known), Mistake::unknown_bur));
     }
   }
   return burs;

@@ -30,6 +30,11 @@ std::vector<std::string> texts(const nlohmann::json& list) {
 }
 
 void read(const nlohmann::json& j, Verdict& v) {
+  if (j.contains("error")) {
+    v.verdict = j.at("error").at("code").get<std::string>();
+    v.data_faults = {j.at("error").at("what").get<std::string>()};
+    return;
+  }
   v.verdict = j.at("verdict").get<std::string>();
   for (const auto& c : j.at("causes")) {
     Cause cause{c.at("mechanism").get<std::string>(), texts(c.at("aliases")), {}};
@@ -38,11 +43,11 @@ void read(const nlohmann::json& j, Verdict& v) {
   }
   if (!j.at("unexplained").is_null()) v.unexplained = j.at("unexplained").at("variable").get<std::string>();
   v.not_testable = texts(j.at("not_testable"));
-  v.data_faults = texts(j.at("data_faults"));
+  for (const auto& fault : j.at("data_faults")) v.data_faults.push_back(fault.at("text").get<std::string>());
   if (j.at("base").is_object()) v.base_rmse_n = number(j.at("base"), "heldout_rmse_n");
   if (j.at("extended").is_object()) v.extended_rmse_n = number(j.at("extended"), "heldout_rmse_n");
   if (j.at("gain").is_object()) v.gain_percent = number(j.at("gain"), "percent");
-  if (j.at("next_experiment").is_string()) v.next_experiment = j.at("next_experiment").get<std::string>();
+  v.next_experiment = j.at("next_experiment").value("kind", "");
 }
 
 }  // namespace

@@ -32,9 +32,8 @@ def ask(task):
         began = time.time()
         run = subprocess.run(shlex.split(cavum) + ["explain", folder + "/recording.csv", "--json", "--seed", str(seed)] + options_of(truth, open(folder + "/recording.csv").readline()), capture_output=True, text=True)
         seconds = time.time() - began
-        try:
-            answer = json.loads(run.stdout)
-        except ValueError:
+        answer = json.loads(run.stdout or "{}")
+        if "verdict" not in answer:
             return dict(family=family, kind=kind, seed=seed, size=size, truth=truth, refused=run.stderr.strip()[-300:], rc=run.returncode, seconds=seconds)
         return dict(family=family, kind=kind, seed=seed, size=size, truth=truth, answer=answer, seconds=seconds)
     finally:
@@ -93,7 +92,7 @@ def describe(case):
     said = ", ".join(c["mechanism"] + ("{" + " ".join(c["aliases"]) + "}" if c["aliases"] else "") for c in a["causes"]) or a["verdict"]
     if a.get("unexplained"):
         said += f" [unexplained {a['unexplained']['variable']}]"
-    return f"{said} gain {a['gain']['percent']:.1f} ({a['gain']['low']:.1f}) p {[round(c['p_value'], 4) for c in a['causes']]} {a['data_faults'] or ''}"
+    return f"{said} gain {a['gain']['percent']:.1f} ({a['gain']['low']:.1f}) p {[round(c['p_value'], 4) for c in a['causes']]} {[f['text'] for f in a['data_faults']] or ''}"
 
 
 def table(cases):

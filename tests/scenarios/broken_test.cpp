@@ -19,11 +19,6 @@ namespace fs = std::filesystem;
 const std::string k_source(CAVUM_SOURCE_DIR);
 const std::string k_folder = k_source + "/tests/scenarios/broken";
 
-constexpr std::array k_mistakes{"other",       "not_toml",     "missing",  "wrong_type",  "out_of_range",  "too_large",
-                                "unknown_key", "unknown_name", "bad_name", "duplicate",   "contradictory", "condition",
-                                "outline",     "surface",      "trespass", "unreachable", "idle",          "faulty_preparations"};
-static_assert(k_mistakes.size() == static_cast<std::size_t>(Mistake::faulty_preparations) + 1);
-
 /// The names and figures of a message, in their order: what stays when its sentence is written anew.
 std::string values_of(const Message& m) {
   std::string all;
@@ -51,7 +46,7 @@ std::string golden_of(const std::string& name) {
     const bool plain = p.mistake == Mistake::not_toml || p.mistake == Mistake::condition;
     const std::string values = plain ? "" : values_of(p.what), remedy = plain ? "" : values_of(p.what_to_do);
     all += std::to_string(p.where.line) + ":" + std::to_string(p.where.column) + (p.warning ? " warning " : " ") +
-           k_mistakes.at(static_cast<std::size_t>(p.mistake)) + (values.empty() ? "" : ": " + values) + (remedy.empty() ? "" : "; " + remedy) + "\n";
+           std::string(name_in(p.mistake)) + (values.empty() ? "" : ": " + values) + (remedy.empty() ? "" : "; " + remedy) + "\n";
   }
   return all;
 }

@@ -82,6 +82,35 @@ bool lost_at_a_wall(const json& result) {
   });
 }
 
+TEST_F(CommandLine, AFailureIsOneJsonObjectWithItsCode) {
+  write_text_file(path("bad.toml"), "id = \n");
+  write_text_file(path("two.toml"), "id = \"a\"\nnonsense = 1\n");
+  write_text_file(path("file"), "x");
+  const std::pair<std::string, const char*> calls[] = {
+      {"nothing", "usage"},
+      {"grade", "usage"},
+      {"grade --nonsense x", "usage"},
+      {"tooth info " + k_block + " --language xx", "error"},
+      {"grade " + path("none.cavum"), "missing"},
+      {"tooth info " + path("none.cvt"), "missing"},
+      {"tooth info " + path("file/none.cvt"), "not_a_folder"},
+      {"scenario solve " + path("bad.toml"), "not_toml"},
+      {"exam " + path("bad.toml") + " --candidate a --operator expert --out " + path("x.cavum"), "not_toml"},
+      {"explain " + path("none.csv"), "missing"},
+      {"ledger verify " + path("none"), "unknown"}};
+  for (const auto& [call, code] : calls) {
+    const Ran r = run(call + " --json");
+    EXPECT_EQ(r.exit_code, 2) << call << r.err;
+    EXPECT_TRUE(r.err.starts_with("cavum: ")) << call << r.err;
+    const json j = json::parse(r.out, nullptr, false);
+    ASSERT_TRUE(j.is_object() && j.contains("error")) << call << r.out;
+    for (const char* name : {"where", "what", "advice"}) EXPECT_FALSE(j["error"][name].empty()) << call << name;
+    EXPECT_EQ(j["error"]["code"], code) << call << r.out;
+  }
+  EXPECT_EQ(json::parse(run("scenario solve " + path("bad.toml") + " --json").out)["error"]["where"]["line"], 1);
+  EXPECT_GT(json::parse(run("scenario solve " + path("two.toml") + " --json").out)["errors"].size(), 1u);
+}
+
 TEST_F(CommandLine, ExpertPassesTheAccessExamAndItsReplayVerifies) {
   const json result = exam(k_data + "/scenarios/molar_access.toml", "expert", "--report " + path("r.html"));
   EXPECT_EQ(result["verdict"], "pass");

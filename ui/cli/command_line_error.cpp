@@ -67,7 +67,7 @@ Message unreadable(const CLI::App& app) {
 
 }  // namespace
 
-Message command_line_error(const CLI::ParseError& error, const CLI::App& app, const std::vector<std::string>& arguments) {
+Error command_line_error(const CLI::ParseError& error, const CLI::App& app, const std::vector<std::string>& arguments) {
   Message what;
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
     what = msg("not understood: {}", list_of(app.remaining(true)));
@@ -84,7 +84,11 @@ Message command_line_error(const CLI::ParseError& error, const CLI::App& app, co
   else if (dynamic_cast<const CLI::ValidationError*>(&error) != nullptr)
     what = msg("{}", error.what());  // of ui/parts/option_checks.h: in the reader's language
   if (what.empty()) what = msg("the options do not fit together");
-  return msg("command line: {}; see `cavum --help` or `cavum VERB --help`", what);
+  return {CommandLineError::usage, msg("command line"), what, msg("see `cavum --help` or `cavum VERB --help`")};
+}
+
+Error no_verb(const std::string& name) {
+  return {CommandLineError::usage, msg("command line"), msg("there is no verb '{}'", name), msg("see `cavum --help`")};
 }
 
 }  // namespace cavum::ui

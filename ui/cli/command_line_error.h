@@ -4,12 +4,18 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/message.h"
+#include "engine/base/error.h"
 #include "ui/parts/option_checks.h"
 
 namespace cavum::ui {
 
+#define CAVUM_COMMAND_LINE_ERRORS(ERROR) ERROR(usage)
+CAVUM_NAMED_ENUM(CommandLineError, CAVUM_COMMAND_LINE_ERRORS)
+
 /// `app` as the parser left it when it threw.
-[[nodiscard]] Message command_line_error(const CLI::ParseError& error, const CLI::App& app, const std::vector<std::string>& arguments);
+[[nodiscard]] Error command_line_error(const CLI::ParseError& error, const CLI::App& app, const std::vector<std::string>& arguments);
+
+/// Of a first argument that is no verb.
+[[nodiscard]] Error no_verb(const std::string& name);
 
 }  // namespace cavum::ui

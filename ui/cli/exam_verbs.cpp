@@ -149,28 +149,28 @@ int finish(const ExamArguments& o, scenarios::Exam& exam, const nlohmann::json& 
   const std::string& session = exam.recorder().path();
   records::remember_closed(closed.graded->session.notes, session);
   const grading::Result& result = closed.result;
-  if (o.json) {
-    auto j = grading::with_words(grading::to_json(result));
-    j["session"] = session;
-    if (!servo.is_null()) j["servo"] = servo;
-    print_json(j);
-  } else {
+  if (!o.json) {
     say(grading::to_text(result));
     say(msg("recorded: {}", session));
     std::cout << std::flush;
   }
   const bool failed_to = o.operator_name == "perforator" && !result.perforation.fault.perforated;
   if (failed_to) say_error(msg("the perforator opened nothing that must not be opened: this recording is no example of a perforation"));
-  const int exit_code = failed_to ? 1 : 0;
-  if (o.report.empty()) return exit_code;
   try {  // the exam is sealed by now, whatever becomes of its report
-    report::write_closing_report(o.report, session, result, *closed.graded, report::ReportReader::instructor);
+    if (!o.report.empty()) report::write_closing_report(o.report, session, result, *closed.graded, report::ReportReader::instructor);
   } catch (const Error& e) {
     throw Error(Name{o.report}, msg("the exam is graded and sealed in {}, its report is not written ({})", session, e.message()),
                 msg("write it later: `cavum report {} --out FILE`", session));
   }
-  if (!o.json) say(msg("report: {}", std::filesystem::absolute(o.report).string()));
-  return exit_code;
+  if (o.json) {
+    auto j = grading::with_words(grading::to_json(result));
+    j["session"] = session;
+    if (!servo.is_null()) j["servo"] = servo;
+    print_json(j);
+  } else if (!o.report.empty()) {
+    say(msg("report: {}", std::filesystem::absolute(o.report).string()));
+  }
+  return failed_to ? 1 : 0;
 }
 
 /// What would spoil the end of an exam is said before it begins.

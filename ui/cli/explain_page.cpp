@@ -84,7 +84,7 @@ std::string verdict_box(const explain::Explanation& e, const Message& words) {
 }
 
 std::string next_box(const explain::Explanation& e) {
-  return fmt::format("{}<p class=\"next\">{}</p>\n", heading(msg("The next experiment")), html(e.next_experiment));
+  return fmt::format("{}<p class=\"next\">{}</p>\n", heading(msg("The next experiment")), html(e.next_experiment.what()));
 }
 
 /// What the cause gains on each session that the fit had not seen.
@@ -198,7 +198,7 @@ std::string page_html(const std::string& title, const std::string& content) {
 
 std::string explanation_html(const explain::Explanation& e, const std::string& title) {
   std::string out = verdict_box(e, in_words(e));
-  if (e.verdict == Verdict::data_fault) return page_html(title, out + list(e.data_faults) + next_box(e));
+  if (e.verdict == Verdict::data_fault) return page_html(title, out + list(texts_of(e.data_faults)) + next_box(e));
   out += heading(msg("What the simulation gets wrong")) + causes_html(e);
   out += heading(msg("What fixing it gains")) + paragraph(msg("Root mean square error on sessions that the fit had not seen.")) + gain_chart(e.gain) +
          html(gain_words(e)) + next_box(e);
@@ -211,13 +211,13 @@ std::string explanation_html(const explain::Explanation& e, const std::string& t
     out += residual_charts(*e.before, *e.after);
     out += "</div>\n" + cannot_tell(e) + candidates_html(e);
   }
-  if (!e.notes.empty()) out += heading(msg("Notes")) + list(e.notes);
+  if (!e.notes.empty()) out += heading(msg("Notes")) + list(words_of(e.notes));
   return page_html(title, out);
 }
 
 std::string table_html(const explain::TableExplanation& e, const std::string& title) {
   std::string out = verdict_box(e.said, in_words(e));
-  if (e.said.verdict == Verdict::data_fault) return page_html(title, out + list(e.said.data_faults) + next_box(e.said));
+  if (e.said.verdict == Verdict::data_fault) return page_html(title, out + list(texts_of(e.said.data_faults)) + next_box(e.said));
   const double most = *std::max_element(e.table.k_n_per_mm.begin(), e.table.k_n_per_mm.end());
   Chart c;
   c.height_px = 360;
@@ -240,7 +240,8 @@ std::string table_html(const explain::TableExplanation& e, const std::string& ti
   c.x_range = {-0.03 * most, 1.03 * most};
   out += heading(msg("Measured against simulated")) +
          fmt::format("<div class=\"alone\">{}</div>\n", figure(c, msg("force over stiffness"), msg("stiffness k, N/mm"), msg("force, N")));
-  out += html(law_rows(e)) + heading(msg("What it says, and what it cannot say")) + list(e.said.notes) + next_box(e.said) + cannot_tell(e.said);
+  out += html(law_rows(e)) + heading(msg("What it says, and what it cannot say")) + list(words_of(e.said.notes)) + next_box(e.said) +
+         cannot_tell(e.said);
   return page_html(title, out);
 }
 

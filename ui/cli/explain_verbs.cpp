@@ -92,20 +92,20 @@ void show_overview(const ExplainArgs& a, const explain::Recording& recording) {
   if (!a.json && !a.out.empty()) say(msg("written: {}", a.out));
 }
 
-/// What counts in another way than a recording does is refused; who asks for JSON or a page is told there, too.
+/// What counts in another way than a recording does is refused; who asks for a page is told there, too.
 void require_conventions(const ExplainArgs& a, explain::Recording& recording) {
   try {
-    for (Message& doubt : explain::require_conventions(recording, a.data, a.reading.as_it_is)) recording.notes.push_back(std::move(doubt));
+    for (Fact& doubt : explain::require_conventions(recording, a.data, a.reading.as_it_is)) recording.notes.push_back(std::move(doubt));
   } catch (const Error& refused) {
+    if (refused.code() != explain::ConventionError::data_fault || a.out.empty()) throw;
     explain::Explanation said;
     said.verdict = explain::Verdict::data_fault;
     said.recording = std::make_shared<const explain::Recording>(recording);
     said.notes = recording.notes;
     for (const explain::Doubt& d : explain::judge_conventions(recording).doubts)
-      if (d.clear) said.data_faults.push_back(msg("{}; give {}", d.what, d.options));
-    said.next_experiment = msg("correct the recording: {}", said.data_faults.front());
-    if (!a.out.empty()) write_text_file(a.out, explanation_html(said, a.data));
-    if (a.json) print_json(to_json(said));
+      if (d.clear) said.data_faults.push_back({explain::DataFault::Kind::conventions, msg("{}; give {}", d.what, d.options)});
+    said.next_experiment = explain::correct_recording(said.data_faults);
+    write_text_file(a.out, explanation_html(said, a.data));
     throw;
   }
 }
@@ -181,6 +181,9 @@ void run_explain(const ExplainArgs& a) {
   const bool faulty = result.verdict == explain::Verdict::data_fault, models = !a.model_out.empty() && !faulty;
   if (models) write_text_file(a.model_out, explain::extended_model_toml(result, start));
   if (!a.out.empty()) write_text_file(a.out, explanation_html(result, a.data));
+  if (faulty && !a.model_out.empty())
+    throw Error(explain::ConventionError::data_fault, Name{"--model-out " + a.model_out},
+                msg("was not written: {}", List{texts_of(result.data_faults), true}), msg("no model can be made of a recording with faults"));
   if (a.json) {
     print_json(to_json(result));
   } else {
@@ -188,8 +191,6 @@ void run_explain(const ExplainArgs& a) {
     for (const auto& path : {a.out, models ? a.model_out : ""})
       if (!path.empty()) say(msg("written: {}", path));
   }
-  if (faulty && !a.model_out.empty())
-    throw Error(Name{"--model-out " + a.model_out}, msg("was not written"), msg("no model can be made of a recording with faults"));
 }
 
 }  // namespace

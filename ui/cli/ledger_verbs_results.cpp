@@ -158,7 +158,7 @@ void ledger_decide(const LedgerOptions& o) {
                       {"max", d.max},
                       {"reasons", d.reasons}});
       rows.row({msg("{}", d.session), Name{d.candidate}, Name{d.scenario_id}, msg("{} of {}", as_points(d.points), as_number(d.max))}, 2);
-      for (const auto& reason : d.reasons) rows.add(msg("{}", reason), 10);
+      for (const auto& reason : d.reasons) rows.add(msg("{}", reason.what()), 10);
     }
     if (o.as_json) return print_json(json{{"to_decide", list}});
     say(rows);

@@ -16,6 +16,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/memory_reserve.h"
+#include "engine/base/system_error.h"
 #include "engine/base/text.h"
 #include "engine/base/version.h"
 #include "engine/physics/servo/servo.h"
@@ -23,45 +24,42 @@
 #include "scenarios/file/parse.h"
 #include "ui/cli/command_line_error.h"
 #include "ui/cli/help_in_language.h"
+#include "ui/cli/told_error.h"
 #include "ui/cli/verbs.h"
 #include "ui/language/language.h"
 #include "ui/language/say.h"
 #include "ui/parts/option_checks.h"
-#include "ui/parts/say.h"
 #include "ui/parts/terminal.h"
 
 namespace {
 
-/// `exit_code`: where the verb writes it.
-int run_verb(CLI::App& app, const std::vector<std::string>& arguments, const int& exit_code) {
+using cavum::msg;
+
+/// `exit_code`: where the verb writes it. What is wrong goes to `errors`.
+int run_verb(CLI::App& app, const std::vector<std::string>& arguments, const int& exit_code, std::vector<cavum::Error>& errors) {
   try {
     std::vector<std::string> from_the_end(arguments.rbegin(), arguments.rend());
     app.parse(std::move(from_the_end));
   } catch (const CLI::Success& e) {  // help or version
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    cavum::ui::say_error(cavum::ui::command_line_error(e, app, arguments));
-    return 2;
+    errors.push_back(cavum::ui::command_line_error(e, app, arguments));
   } catch (const cavum::scenarios::ProblemsError& e) {
-    for (const auto& p : e.problems()) cavum::ui::say_error(p.message());
-    return 2;
+    for (const auto& p : e.problems()) errors.emplace_back(p.mistake, p.where, p.what, p.what_to_do);
   } catch (const cavum::records::ListMistakes& e) {
-    for (const auto& mistake : e.mistakes()) cavum::ui::say_error(mistake);
-    return 2;
+    errors = e.mistakes();
   } catch (const std::bad_alloc&) {
-    cavum::ui::say_error(cavum::msg("memory: there is not enough; close other programs, and try again"));
-    return 2;
+    errors.emplace_back(cavum::MemoryError::ran_out, msg("memory"), msg("there is not enough"), msg("close other programs, and try again"));
   } catch (const std::filesystem::filesystem_error& e) {
-    cavum::ui::say_error(cavum::msg("{}: {}; give another file or folder", e.path1().string().substr(0, 300), e.code().message()));
-    return 2;
+    const int why = e.code().value();
+    errors.emplace_back(cavum::system_code(why), cavum::Name{e.path1().string().substr(0, 300)}, cavum::system_words(why),
+                        msg("give another file or folder"));
   } catch (const cavum::Error& e) {
-    cavum::ui::say_error(e.message());
-    return 2;
+    errors.push_back(e);
   } catch (const std::exception& e) {
-    cavum::ui::say_error(cavum::msg("{}", e.what()));
-    return 2;
+    errors.emplace_back(msg("this program"), cavum::Name{e.what()}, msg("try again"));
   }
-  return exit_code;
+  return errors.empty() ? exit_code : 2;
 }
 
 }  // namespace
@@ -70,12 +68,16 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error that is told, not the end of an exam
   cavum::ui::SafeTerminal terminal;
   std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
+  const bool as_json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
+  const auto refused = [&](cavum::Error error) {
+    cavum::ui::tell_errors({std::move(error)}, as_json);
+    return 2;
+  };
   try {
     cavum::set_language(cavum::language_of_environment());  // of errors of the option itself
     if (const std::string asked = cavum::take_language_option(arguments); !asked.empty()) cavum::set_language(asked);
   } catch (const cavum::Error& e) {
-    cavum::ui::say_error(e.message());
-    return 2;
+    return refused(e);
   }
   if (!arguments.empty() && arguments[0] == "manual") cavum::set_language("en");  // packaged once, for all
   CLI::App app{cavum::tr("Cavum examines cavity opening on virtual teeth: exams, grades, replays."), "cavum"};
@@ -98,10 +100,11 @@ int main(int argc, char** argv) {
   cavum::ui::group_help_flags(app);
   const auto verbs = app.get_subcommands([](CLI::App*) { return true; });
   if (!arguments.empty() && !arguments[0].starts_with('-') &&
-      std::none_of(verbs.begin(), verbs.end(), [&](const CLI::App* v) { return v->get_name() == arguments[0]; })) {
-    cavum::ui::say_error(cavum::msg("command line: there is no verb '{}'; see `cavum --help`", arguments[0]));
-    return 2;
-  }
+      std::none_of(verbs.begin(), verbs.end(), [&](const CLI::App* v) { return v->get_name() == arguments[0]; }))
+    return refused(cavum::ui::no_verb(arguments[0]));
   cavum::keep_memory_reserve();
-  return run_verb(app, arguments, exit_code);
+  std::vector<cavum::Error> errors;
+  const int end = run_verb(app, arguments, exit_code, errors);
+  if (!errors.empty()) cavum::ui::tell_errors(errors, as_json);
+  return end;
 }

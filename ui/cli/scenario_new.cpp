@@ -100,13 +100,13 @@ Message against(const std::string& text, const std::string& file, Trial& trial) 
   options.tooth_file = file;
   const auto setup = scenarios::prepare_exam(scenario, options);
   const Solved solved = solve_exam(*setup, 1, scratch.file("expert.cavum"));
-  if (!solved.result) return solved.reasons.front();
+  if (!solved.result) return solved.reasons.front().what();
   trial.expert_percent = 100.0 * solved.result->points / solved.result->max_points;
   if (solved.result->verdict != grading::Verdict::pass || trial.expert_percent < k_min_percent) {
     const Number percent = as_percent(trial.expert_percent, 0);
     const Term verdict = grading::word_of(solved.result->verdict);
     return solved.reasons.empty() ? msg("the built-in expert gets {} of the points ({})", percent, verdict)
-                                  : msg("the built-in expert gets {} of the points ({}): {}", percent, verdict, List{solved.reasons, true});
+                                  : msg("the built-in expert gets {} of the points ({}): {}", percent, verdict, List{words_of(solved.reasons), true});
   }
   const grading::Trial table = grading::run_trial(setup->scenario, setup->tooth, setup->zones, grading::Look::screened);
   trial.faulty_preparations = table.rows.size();

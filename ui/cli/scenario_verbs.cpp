@@ -51,7 +51,7 @@ int check(const ScenarioArguments& o) {
     nlohmann::ordered_json j{{"scenario", o.scenario}, {"sound", checked.sound()}, {"problems", nlohmann::ordered_json::array()}};
     for (const auto& p : checked.problems)
       j["problems"].push_back({{"severity", p.warning ? "warning" : "error"},
-                               {"kind", scenarios::k_mistake_names[static_cast<std::size_t>(p.mistake)]},
+                               {"kind", name_in(p.mistake)},
                                {"where", p.where},
                                {"line", p.where.line},
                                {"column", p.where.column},
@@ -133,27 +133,33 @@ struct Caught {
   grading::Result result;
   grading::CriterionResult criterion;
   bool as_named = false;
-  Message advice;  ///< what to change when it is not caught
+  Fact advice;  ///< what to change when it is not caught
 };
 
 /// Why the careless candidate got away, and what to do about it.
-Message advice_for(const Caught& c) {
+Fact advice_for(const Caught& c) {
   const grading::CriterionResult& named = c.criterion;
   const bool lost_all = named.critical_failed || named.points <= 0;
   if (c.result.progress.finish == Finish::time)
-    return msg("time ran out before the mistake told: allow more time, or make the mistake in [careless] quicker to see");
+    return {"more_time", msg("time ran out before the mistake told: allow more time, or make the mistake in [careless] quicker to see")};
   if (lost_all && c.result.verdict == grading::Verdict::review)
-    return msg("a person would have to decide: make '{}' critical, or raise the pass mark by more than the borderline band", named.id);
+    return {"borderline",
+            {"criterion"},
+            msg("a person would have to decide: make '{}' critical, or raise the pass mark by more than the borderline band", named.id)};
   if (lost_all)
-    return msg("'{}' gives no points, but the others make up for it: set its critical_above or critical_below, or make the rubric non-compensatory",
-               named.id);
+    return {"compensated",
+            {"criterion"},
+            msg("'{}' gives no points, but the others make up for it: set its critical_above or critical_below, or make the rubric non-compensatory",
+                named.id)};
   const Message value = !named.value         ? msg("no value")
                         : named.unit.empty() ? msg("{}", as_number(*named.value, 2))
                                              : msg("{} {}", as_number(*named.value, 2), named.unit);
-  return msg(
-      "'{}' still gives {} of {} points for {}: make the mistake in [careless] larger, or the criterion stricter so that it gives none for that, or "
-      "let fails_by name another",
-      named.id, as_points(named.points), as_points(named.max), value);
+  return {"too_mild",
+          {"criterion", "points", "max", "value"},
+          msg("'{}' still gives {} of {} points for {}: make the mistake in [careless] larger, or the criterion stricter so that it gives none for "
+              "that, or "
+              "let fails_by name another",
+              named.id, as_points(named.points), as_points(named.max), value)};
 }
 
 Caught catch_careless(const ScenarioArguments& o, const scenarios::ExamSetup& setup, const std::string& session) {
@@ -170,8 +176,10 @@ Caught catch_careless(const ScenarioArguments& o, const scenarios::ExamSetup& se
 
 nlohmann::ordered_json to_json(const Caught& c) {
   const auto result = grading::with_words(grading::to_json(c.result));
-  nlohmann::ordered_json j{
-      {"fails_by", c.criterion.id}, {"caught", c.as_named}, {"reason", english_text(c.criterion.reason())}, {"what_to_do", c.advice}};
+  nlohmann::ordered_json j{{"fails_by", c.criterion.id},
+                           {"caught", c.as_named},
+                           {"reason", english_text(c.criterion.reason())},
+                           {"what_to_do", c.advice.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(c.advice)}};
   for (const char* key : {"verdict", "score", "time_s", "finish", "criteria"}) j[key] = result[key];
   return j;
 }
@@ -184,7 +192,7 @@ Lines to_text(const Caught& c) {
                      : msg("careless: NOT failed by {} ({}); {} of {} points, {}", c.criterion.id, c.criterion.reason(), points, most, verdict));
   if (c.as_named) return out;
   for (const auto& reason : c.result.verdict_reasons) out.add(msg("because: {}", reason.message()));
-  out.add(msg("what to do: {}", c.advice));
+  out.add(msg("what to do: {}", c.advice.what()));
   return out;
 }
 
@@ -225,7 +233,7 @@ int solve(const ScenarioArguments& o) {
       for (const char* key : {"verdict", "score", "time_s", "finish", "steps", "criteria"}) j[key] = result[key];
     }
     j["reasons"] = solved.reasons;
-    j["what_to_do"] = solved.advice;
+    j["what_to_do"] = solved.advice.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(solved.advice);
     if (o.careless) j["careless"] = careless ? to_json(*careless) : nlohmann::ordered_json(nullptr);
     if (trial) j["trial"] = grading::trial_json(*trial);
     j["session"] = o.out.empty() || !solved.result ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(o.out);
@@ -244,8 +252,8 @@ int solve(const ScenarioArguments& o) {
     say(msg("steps: {} of {} completed, ended: {}", r.progress.steps_completed, r.progress.steps, Term{finish_name(r.progress.finish)}));
     for (const auto& c : r.criteria) say(msg("{}: {} of {}, {}", c.id, as_points(c.points), as_points(c.max), c.reason()), 2);
   }
-  for (const auto& reason : solved.reasons) say(msg("because: {}", reason));
-  if (!passed) say(msg("what to do: {}", solved.advice));
+  for (const auto& reason : solved.reasons) say(msg("because: {}", reason.what()));
+  if (!passed) say(msg("what to do: {}", solved.advice.what()));
   if (careless) say(to_text(*careless));
   if (trial) say_trial(*trial);
   if (solved.result && !o.out.empty()) say(msg("recorded: {}", o.out));

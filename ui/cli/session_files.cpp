@@ -5,6 +5,7 @@
 #include <set>
 
 #include "engine/base/error.h"
+#include "engine/base/system_error.h"
 
 namespace cavum::ui {
 
@@ -14,7 +15,7 @@ std::vector<std::string> sessions_in(const std::string& folder) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
       if (entry.path().extension() == ".cavum") found.push_back(entry.path().string());
   } catch (const std::filesystem::filesystem_error& e) {
-    throw Error(Name{folder}, msg("{}", e.code().message()), msg("check the folder and its permissions"));
+    throw Error(system_code(e.code().value()), Name{folder}, system_words(e.code().value()), msg("check the folder and its permissions"));
   }
   if (found.empty()) throw Error(Name{folder}, msg("holds no .cavum file"), msg("name a session or a folder of sessions"));
   std::sort(found.begin(), found.end());

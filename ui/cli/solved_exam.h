@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/message.h"
+#include "engine/base/fact.h"
 #include "grading/result/result.h"
 #include "scenarios/exam/exam.h"
 #include "scenarios/operators/simulated_exam.h"
@@ -20,8 +20,8 @@ namespace cavum::ui {
 struct Solved {
   std::optional<grading::Result> result;
   std::string bur;
-  std::vector<Message> reasons;  ///< why it was not passed
-  Message advice;                ///< what to change then
+  Facts reasons;  ///< why it was not passed
+  Fact advice;    ///< what to change then
 };
 
 /// `session` is the file to write; `seed` of the expert's tremor.

@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "engine/base/fact.h"
 #include "engine/base/file.h"
-#include "engine/base/message_json.h"
 #include "engine/device/device_error.h"
 #include "engine/device/hardware/open_stylus.h"
 #include "engine/device/hardware/stylus_probe.h"
@@ -61,8 +61,7 @@ Vec3 held_at(Stylus& stylus) {
 
 nlohmann::json problem_json(const std::optional<Error>& problem) {
   if (!problem) return nullptr;
-  const auto kind = problem->code().as<DeviceError>();
-  return fact_json(kind ? name_in(*kind) : "error", problem->message());
+  return Fact(problem->code().name(), {"where", "what", "what_to_do"}, problem->message());
 }
 
 nlohmann::json styluses_json(bool again) {

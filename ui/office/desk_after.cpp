@@ -69,8 +69,8 @@ Queue Desk::queue() {
   Queue out;
   for (const auto& d : records::review_queue(registry)) {
     const records::FiledSession& s = *registry.session(d.session);
-    out.value.push_back({d.session, d.candidate, d.scenario_id, d.points, d.max, shown_each(d.reasons), decided(s), noted(registry, d.candidate),
-                         recording_sha256(s)});
+    out.value.push_back({d.session, d.candidate, d.scenario_id, d.points, d.max, shown_each(words_of(d.reasons)), decided(s),
+                         noted(registry, d.candidate), recording_sha256(s)});
   }
   return out;
 }

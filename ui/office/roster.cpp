@@ -134,7 +134,10 @@ void join_names(std::vector<CsvRow>& rows, std::vector<std::string>& passed_over
 
 std::vector<Message> mistakes_of(const Error& wrong) {
   const auto* const several = dynamic_cast<const records::ListMistakes*>(&wrong);
-  return several == nullptr ? std::vector<Message>{wrong.message()} : several->mistakes();
+  if (several == nullptr) return {wrong.message()};
+  std::vector<Message> all;
+  for (const Error& mistake : several->mistakes()) all.push_back(mistake.message());
+  return all;
 }
 
 Roster read_roster(const std::string& bytes, const std::vector<std::string>& answers) {

@@ -107,7 +107,7 @@ class Site::Visit : public Exchange {
       refusal_ = error_reply(507, e.message());
     } catch (const records::ListMistakes& e) {
       std::string lines;
-      for (const Message& mistake : e.mistakes()) lines += (lines.empty() ? "" : "\n") + one_line(tr(mistake));
+      for (const Error& mistake : e.mistakes()) lines += (lines.empty() ? "" : "\n") + one_line(tr(mistake.message()));
       refusal_ = json_reply({{"error", lines}}, 400);
     } catch (const Error& e) {
       refusal_ = error_reply(400, e.message());

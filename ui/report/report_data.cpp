@@ -155,7 +155,7 @@ json report_data(const ReportSource& s) {
                          {"t_s", static_cast<double>(m.tick) * k_tick_s},
                          {"to_t_s", static_cast<double>(std::max(m.tick, m.end_tick)) * k_tick_s},
                          {"site_mm", site(m.site_mm)},
-                         {"what", tr(m.what)},
+                         {"what", tr(m.what())},
                          {"points_lost", m.points_lost ? json(rounded(*m.points_lost, 1e-3)) : json()}});
     }
   data["duration_s"] = static_cast<double>(s.input.records.size()) * k_tick_s;

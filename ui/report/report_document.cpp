@@ -207,7 +207,7 @@ TableRow moment_row(const grading::WhyItem& m) {
   const bool lasts = m.end_tick > m.tick && m.tick >= 0;
   return {{time_cell(m.tick, m.site_mm),
            {place_text(m.site_mm)},
-           {lasts ? tr("{} (until {})", m.what, as_s(static_cast<double>(m.end_tick) * k_tick_s)) : tr(m.what)},
+           {lasts ? tr("{} (until {})", m.what(), as_s(static_cast<double>(m.end_tick) * k_tick_s)) : tr(m.what())},
            {m.amount ? figure(as_unit(*m.amount, unit_of(m.unit).value_or(Unit::none), 3)) : ""},
            {m.points_lost ? figure(as_points(*m.points_lost, 2)) : ""}},
           m.points_lost && *m.points_lost > 0};

@@ -48,10 +48,8 @@ ReportEvent event_of(const TimedEvent& e, const grading::GradeInput& input, cons
           [&](const ServoStopped& of) { return say(EventGroup::device, msg("the servo stopped: {}", in_words(of))); },
           [&](const RecordingGap&) { return say(EventGroup::gap, msg("the recording was interrupted here and taken up again")); },
           [&](const AnyOf<ServoGap, Overruns, StylusSilent, StylusBack, PedalLost, PedalBack, ServoDisagrees, ServoLateness, WorkAfterEnd,
-                          LockAttempt, OfficeHold, OfficeHoldReleased, Announced, AnnouncementRead, TutorialStep, MeasuredForce> auto& of) {
-            std::string name = of.k_kind;
-            std::replace(name.begin(), name.end(), '_', ' ');
-            return say(EventGroup::device, msg("{}", Term{name}));
+                          LockAttempt, OfficeHold, OfficeHoldReleased, Announced, AnnouncementRead, TutorialStep, MeasuredForce> auto&) {
+            return say(EventGroup::device, msg("{}", word_of(e.event)));
           },
       },
       e.event);

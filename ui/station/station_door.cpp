@@ -13,6 +13,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
+#include "engine/base/system_error.h"
 
 namespace cavum::station {
 namespace {
@@ -50,7 +51,7 @@ StationDoor::StationDoor() : socket_(door_socket()) {
   const bool taken = errno == EADDRINUSE;
   if (socket_ >= 0) ::close(socket_);
   if (taken) throw door_is_shut();
-  throw Error(Name{"--kiosk"}, msg("this computer gives no socket ({})", std::strerror(errno)), msg("start it anew"));
+  throw Error(Name{"--kiosk"}, msg("this computer gives no socket ({})", system_words(errno)), msg("start it anew"));
 }
 
 StationDoor::~StationDoor() { ::close(socket_); }

@@ -58,7 +58,7 @@ libusb_device_handle* open_first(libusb_context* context, bool& there) {
     throw falcon_error(DeviceError::not_there, msg("no Novint Falcon is plugged in"), msg("plug in its USB cable and its own power supply"));
   if (error == LIBUSB_ERROR_ACCESS)
     throw falcon_error(DeviceError::not_permitted, msg("may not be opened"), udev_advice(k_falcon_vendor, k_falcon_product, false));
-  if (error != 0) throw falcon_error(DeviceError::refuses, msg("does not open ({})", libusb_strerror(error)), msg("plug it in again"));
+  if (error != 0) throw falcon_error(DeviceError::refuses, msg("does not open ({})", libusb_error_name(error)), msg("plug it in again"));
   return handle;
 }
 
@@ -90,7 +90,7 @@ FalconUsb::FalconUsb() {
   static_cast<void>(libusb_set_auto_detach_kernel_driver(device_, 1));  // a serial port driver may hold it; not every system can
   if (const int error = libusb_claim_interface(device_, 0); error != 0) {
     libusb_close(device_);
-    throw falcon_error(DeviceError::in_use, msg("is in use ({})", libusb_strerror(error)), msg("close the other program that drives it"));
+    throw falcon_error(DeviceError::in_use, msg("is in use ({})", libusb_error_name(error)), msg("close the other program that drives it"));
   }
   context_ = context.release();
 }
@@ -106,7 +106,7 @@ void FalconUsb::control(int request, int value) {
   if (const int error = libusb_control_transfer(device_, k_vendor_out, static_cast<std::uint8_t>(request), static_cast<std::uint16_t>(value), 0,
                                                 nullptr, 0, k_patience_ms);
       error < 0)
-    throw falcon_error(DeviceError::refuses, msg("its USB chip refuses a setting ({})", libusb_strerror(error)), msg("plug it in again"));
+    throw falcon_error(DeviceError::refuses, msg("its USB chip refuses a setting ({})", libusb_error_name(error)), msg("plug it in again"));
 }
 
 void FalconUsb::send(std::span<const std::uint8_t> bytes) {
@@ -114,7 +114,7 @@ void FalconUsb::send(std::span<const std::uint8_t> bytes) {
   const int error =
       libusb_bulk_transfer(device_, k_out, const_cast<unsigned char*>(bytes.data()), static_cast<int>(bytes.size()), &sent, k_patience_ms);
   if (error != 0 || sent != static_cast<int>(bytes.size()))
-    throw falcon_error(DeviceError::refuses, msg("does not take what is sent ({})", libusb_strerror(error)), msg("plug it in again"));
+    throw falcon_error(DeviceError::refuses, msg("does not take what is sent ({})", libusb_error_name(error)), msg("plug it in again"));
 }
 
 std::vector<std::uint8_t> FalconUsb::hear(int patience_ms) {
@@ -122,7 +122,7 @@ std::vector<std::uint8_t> FalconUsb::hear(int patience_ms) {
   int got = 0;
   const int error = libusb_bulk_transfer(device_, k_in, packet.data(), k_packet_bytes, &got, static_cast<unsigned>(patience_ms));
   if (error != 0 && error != LIBUSB_ERROR_TIMEOUT)
-    throw falcon_error(DeviceError::lost, msg("was lost ({})", libusb_strerror(error)), msg("plug it in again"));
+    throw falcon_error(DeviceError::lost, msg("was lost ({})", libusb_error_name(error)), msg("plug it in again"));
   if (got <= k_status_bytes) return {};
   return {packet.begin() + k_status_bytes, packet.begin() + got};
 }

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -16,6 +15,7 @@
 #include "engine/base/file_error.h"
 #include "engine/base/hash.h"
 #include "engine/base/json_reader.h"
+#include "engine/base/system_error.h"
 #include "engine/base/text.h"
 
 namespace cavum {
@@ -56,7 +56,7 @@ class LockedFile {
 
  private:
   [[noreturn]] void fail() const {
-    throw Error(path_, msg("cannot be written ({})", std::strerror(errno)), msg("make room on its disk and its folder writable, then check again"));
+    throw Error(path_, msg("cannot be written ({})", system_words(errno)), msg("make room on its disk and its folder writable, then check again"));
   }
   std::string path_;
   int fd_;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/det_math.h"
+#include "engine/base/system_error.h"
 #include "engine/physics/servo/real_time_json.h"
 #include "engine/session/simulation.h"
 #include "engine/tooth/make/make_block.h"
@@ -86,7 +86,7 @@ nlohmann::json to_json(const ServoRigResult& r) {
 }
 
 Lines to_text(const ServoRigResult& r) {
-  const auto reason = [](const SystemGrant& g) { return g.asked ? msg("{}", std::strerror(g.error)) : msg("not asked for"); };
+  const auto reason = [](const SystemGrant& g) { return g.asked ? system_words(g.error) : msg("not asked for"); };
   const RealTimeReport& s = r.servo;
   const Number tick = as_unit(r.tick_s * 1e3, Unit::ms), seconds = as_s(r.seconds, 2);
   Lines out;

@@ -4,12 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/named_enum.h"
 #include "engine/lab/scan/outer_surface.h"
 #include "engine/lab/scan/rigid.h"
 
 namespace cavum {
 
-enum class ScanError : std::uint8_t { another_tooth, crown_not_seen };
+#define CAVUM_SCAN_ERRORS(ERROR) ERROR(another_tooth) ERROR(crown_not_seen)
+CAVUM_NAMED_ENUM(ScanError, CAVUM_SCAN_ERRORS)
 
 /// Shares are of area, 0..1. `within_mm`: three standard deviations of the noise, 0.03 mm at least.
 struct ScanFit {

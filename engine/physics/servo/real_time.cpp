@@ -1,13 +1,13 @@
 #include "engine/physics/servo/real_time.h"
 
 #include <cmath>
-#include <cstring>
 #include <exception>
 #include <system_error>
 #include <thread>
 
 #include "engine/base/error.h"
 #include "engine/base/said_by.h"
+#include "engine/base/system_error.h"
 
 namespace cavum {
 
@@ -175,7 +175,7 @@ Message in_words(const ServoStop& stop) {
     case ServoFault::zero_force:
       return msg("zero force could not be sent");
     case ServoFault::threads:
-      return msg("the system gave no threads ({})", std::strerror(stop.error));
+      return msg("the system gave no threads ({})", system_words(stop.error));
   }
   return stop.why == ServoEnd::ticks ? msg("all ticks that were wanted were taken") : msg("it was asked to stop");
 }

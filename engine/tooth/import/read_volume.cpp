@@ -16,6 +16,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file_error.h"
 #include "engine/base/shipped.h"
+#include "engine/base/system_error.h"
 #include "engine/tooth/volume/volume_limits.h"
 #include "engine/tooth/volume/volume_wire.h"
 
@@ -72,7 +73,7 @@ class Reader {
 
  private:
   [[noreturn]] static void fail(const std::string& program, int reason) {
-    throw Error(program, msg("cannot be started ({})", std::strerror(reason)), msg("install Cavum again"));
+    throw Error(program, msg("cannot be started ({})", system_words(reason)), msg("install Cavum again"));
   }
   int wait() const {
     int status = 0;

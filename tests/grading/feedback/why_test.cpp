@@ -27,7 +27,7 @@ using testing::scenario_text;
 /// A moment in which something was removed: it tells at which wall, or at the opening, the most of it.
 bool is_removal(const WhyItem& i) {
   for (std::size_t wall = 0; wall <= scenarios::k_walls; ++wall)
-    if (i.unit == "mm3" && i.tick >= 0 && tells(i.what, scenarios::wall_text(wall, {}))) return true;
+    if (i.unit == "mm3" && i.tick >= 0 && tells(i.what(), scenarios::wall_text(wall, {}))) return true;
   return false;
 }
 
@@ -65,7 +65,7 @@ TEST(Why, PointsAddUpToWhatWasLostForEveryMeasureAndBothDirections) {
       const Why w = why(c.input(), r, rubric, "c");
       EXPECT_NEAR(points_of(w), 10 - r.criteria[0].points, 1e-6) << m.name << " " << sign;
       EXPECT_FALSE(w.items.empty()) << m.name;
-      for (const auto& i : w.items) EXPECT_GE(i.points_lost.value_or(0), 0) << m.name << ": " << i.what;
+      for (const auto& i : w.items) EXPECT_GE(i.points_lost.value_or(0), 0) << m.name << ": " << i.what();
     }
 }
 
@@ -82,12 +82,12 @@ TEST(Why, AMomentThatReachesSeveralZonesNamesEachWithItsVolume) {
   mark(r, rubric);
   const Why w = why(c.input(), r, rubric, "c");
   ASSERT_EQ(w.items.size(), 2u);
-  EXPECT_TRUE(tells(w.items[1].what, 50.0)) << "percent of the work from which on care counts in full: " << w.items[1].what;
+  EXPECT_TRUE(tells(w.items[1].what(), 50.0)) << "percent of the work from which on care counts in full: " << w.items[1].what();
   const WhyItem& cut = w.items[0];
   EXPECT_NEAR(*cut.amount, *r.criteria[0].value, 1e-9);
-  EXPECT_TRUE(tells(cut.what, std::string(scenarios::zone_name(scenarios::Zone::container_sides)))) << cut.what;
-  EXPECT_GE(figures_in(cut.what).size(), 3u) << "a volume for each zone, and one outside all";
-  EXPECT_TRUE(tells(cut.what, scenarios::wall_text(static_cast<std::size_t>(scenarios::Wall::mesial), {}))) << cut.what;
+  EXPECT_TRUE(tells(cut.what(), std::string(scenarios::zone_name(scenarios::Zone::container_sides)))) << cut.what();
+  EXPECT_GE(figures_in(cut.what()).size(), 3u) << "a volume for each zone, and one outside all";
+  EXPECT_TRUE(tells(cut.what(), scenarios::wall_text(static_cast<std::size_t>(scenarios::Wall::mesial), {}))) << cut.what();
 }
 
 TEST(Why, MomentsBeginWhereTheReasonSaysAndAddUpToValueAndBound) {
@@ -147,7 +147,7 @@ TEST(Why, SaysWhichMomentUsedUpWhatCostsNothing) {
   const Why w = why(c.input(), r, rubric, "c");
   std::vector<double> limits;
   for (const auto& i : w.items)
-    if (i.tick >= 1000 && is_removal(i)) limits.push_back(figures_in(i.what).back());
+    if (i.tick >= 1000 && is_removal(i)) limits.push_back(figures_in(i.what()).back());
   EXPECT_EQ(limits, (std::vector<double>{0.5, 0.5, 0.9})) << "within what costs nothing, beyond it, and beyond what leaves no points";
   const auto cells = cells_of(to_text(w));
   EXPECT_TRUE(std::any_of(cells.begin(), cells.end(), [](const Message& m) { return figures_in(m) == std::vector<double>{0.5, 0.9}; }));
@@ -166,7 +166,7 @@ TEST(Why, EveryLineThatCostsPointsHasItsTick) {
       EXPECT_GE(r.criteria[0].first.tick, 0) << m.name << ": " << r.criteria[0].reason();
       for (const auto& i : why(c.input(), r, rubric, "c").items)
         if (i.points_lost.value_or(0) > 1e-9) {
-          EXPECT_GE(i.tick, 0) << m.name << ": " << i.what;
+          EXPECT_GE(i.tick, 0) << m.name << ": " << i.what();
         }
     }
 }
@@ -195,8 +195,8 @@ TEST(Why, RoofAndCanalsHaveTheirPlacesAndWhenTheyWereLastNearlyReached) {
     const Why w = why(c.input(), r, rubric, "c");
     ASSERT_EQ(w.items.size(), 1u) << metric;
     EXPECT_EQ(w.items[0].tick, 77) << metric;
-    const auto* middle = std::get_if<Vec3>(&w.items[0].what.values().at(0));
-    ASSERT_NE(middle, nullptr) << w.items[0].what;
+    const auto* middle = std::get_if<Vec3>(&w.items[0].facts[0].what().values().at(0));
+    ASSERT_NE(middle, nullptr) << w.items[0].what();
     EXPECT_NEAR(middle->x, 1.0, 0.1) << "of the roof 0.996, less a horn of 0.15 mm3 at 1.15; of the mouth 1.0";
   }
   const scenarios::RubricSpec rubric = half_lost(measured, "overhang_mm3", -1);

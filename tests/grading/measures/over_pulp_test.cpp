@@ -131,7 +131,7 @@ TEST(OverPulp, ReasonMomentsAndJsonSayWhereAndWhen) {
   const Why w = why(c.input(), r, c.scenario.rubric, "left");
   ASSERT_FALSE(w.items.empty());
   EXPECT_TRUE(std::any_of(w.items.begin(), w.items.end(),
-                          [&](const WhyItem& i) { return i.tick == 7 && testing_basics::tells(i.what, Value(r.over_pulp.pulp_mm)); }));
+                          [&](const WhyItem& i) { return i.tick == 7 && testing_basics::tells(i.what(), Value(r.over_pulp.pulp_mm)); }));
   const auto json = to_json(r);
   EXPECT_EQ(json["pulp"]["dentin_over_pulp_mm"], rounded(*r.over_pulp.dentin_mm));
   EXPECT_EQ(json["pulp"]["bounds"]["dentin_over_pulp_mm"], k_leaf_mm);

@@ -525,7 +525,9 @@ TEST(People, AllMistakesOfAListAreToldAtOnce) {
     try {
       static_cast<void>(parse_people(text, "class.csv"));
     } catch (const ListMistakes& wrong) {
-      return wrong.mistakes();
+      std::vector<Message> all;
+      for (const Error& mistake : wrong.mistakes()) all.push_back(mistake.message());
+      return all;
     }
     return std::vector<Message>();
   };

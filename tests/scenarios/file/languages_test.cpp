@@ -44,7 +44,7 @@ TEST(ScenarioLanguages, AMistakeIsNamedWithItsPlace) {
   EXPECT_TRUE(tells(problems_of(with("[languages.de]\ncriteria.walls = 3\n")), "walls"));
   EXPECT_TRUE(tells(problems_of(with("[languages.de]\ntitel = \"x\"\n")), "titel"));
   for (const char* wrong : {"[languages.en]\ntitle = \"x\"\n", "[languages.German]\ntitle = \"x\"\n", "[languages]\nde = \"x\"\n"})
-    EXPECT_EQ(read_scenario(with(wrong), "s.toml").problems.at(0).mistake, Mistake::unknown_name) << wrong;
+    EXPECT_EQ(read_scenario(with(wrong), "s.toml").problems.at(0).mistake, Mistake::unknown_language) << wrong;
 }
 
 TEST(ScenarioLanguages, WhatAScenarioAsksDoesNotDependOnThem) {

@@ -85,7 +85,7 @@ TEST(Measures, ATissueWithoutItsUnitIsNoMeasureButWasTakenOnce) {
     static_cast<void>(parse_rubric(rubric, "r.toml"));
     FAIL() << "taken";
   } catch (const ProblemsError& e) {
-    EXPECT_EQ(e.code(), Mistake::unknown_name);
+    EXPECT_EQ(e.code(), Mistake::unknown_measure);
     EXPECT_EQ(e.where(), Message(FilePlace{"r.toml", 5, 10}));
     EXPECT_TRUE(testing_basics::tells(e.problem(), "touched_pulp") && testing_basics::tells(e.advice(), "touched_pulp_mm3"));
   }

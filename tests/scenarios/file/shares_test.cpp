@@ -44,7 +44,7 @@ TEST(Shares, IdThatIsNoOtherCriterionIsAMistake) {
       static_cast<void>(
           twice(criterion("wall", "container_sides_mm3") + criterion("itself", "outside_mm3", fmt::format("shares_with = [\"{}\"]", wrong))));
     });
-    EXPECT_EQ(testing_basics::code_of(refused), Mistake::unknown_name) << wrong;
+    EXPECT_EQ(testing_basics::code_of(refused), Mistake::unknown_criterion) << wrong;
     EXPECT_TRUE(testing_basics::tells(refused, "itself") && testing_basics::tells(refused, wrong));
   }
 }

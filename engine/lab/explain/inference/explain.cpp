@@ -70,26 +70,30 @@ void conclude(Explanation& e, bool one_way) {
                     : Verdict::clean;
 
   const auto separate = [](const std::string& name) { return msg("{}", cavum::Term{mechanism_at(known_mechanism(name)).separate}); };
-  List wanted{{}, true};
-  const auto want = [&wanted](const Message& experiment) {
+  List wanted{{}, true}, apart;
+  const auto want = [&](const std::string& mechanism) {
+    apart.items.emplace_back(Name{mechanism});
+    const Message experiment = separate(mechanism);
     if (std::find(wanted.items.begin(), wanted.items.end(), experiment) == wanted.items.end()) wanted.items.push_back(experiment);
   };
   for (const auto& c : e.causes)
     if (!c.aliases.empty()) {
-      want(separate(mechanism_at(c.term.mechanism).name));
-      for (const auto& a : c.aliases) want(separate(a));
+      want(mechanism_at(c.term.mechanism).name);
+      for (const auto& a : c.aliases) want(a);
     }
   if (e.verdict == Verdict::not_testable)
-    for (const auto* m : offsets) want(separate(m->name));
-  if (wanted.items.empty() && e.unexplained)
-    want(msg("vary {} alone, in steps, with everything else held, and record again", e.unexplained->variable));
-  if (wanted.items.empty()) {
-    const auto open = std::find_if(e.not_testable.begin(), e.not_testable.end(),
-                                   [](const NotTestable& n) { return mechanism_at(known_mechanism(n.mechanism)).in_recordings; });
-    want(open == e.not_testable.end() ? msg("repeat the recording at another site, to see whether k, c and the causes stay the same")
-                                      : msg("to test {} too: {}", open->mechanism, separate(open->mechanism)));
-  }
-  e.next_experiment = msg("{}", wanted);
+    for (const auto* m : offsets) want(m->name);
+  const auto open = std::find_if(e.not_testable.begin(), e.not_testable.end(),
+                                 [](const NotTestable& n) { return mechanism_at(known_mechanism(n.mechanism)).in_recordings; });
+  if (!wanted.items.empty())
+    e.next_experiment = Fact("tell_apart", {"experiments"}, msg("{}", wanted)).with("mechanisms", apart);
+  else if (e.unexplained)
+    e.next_experiment =
+        Fact("vary_alone", {"variable"}, msg("vary {} alone, in steps, with everything else held, and record again", e.unexplained->variable));
+  else if (open == e.not_testable.end())
+    e.next_experiment = Fact("repeat_elsewhere", msg("repeat the recording at another site, to see whether k, c and the causes stay the same"));
+  else
+    e.next_experiment = Fact("test_too", {"mechanism", "experiment"}, msg("to test {} too: {}", open->mechanism, separate(open->mechanism)));
 }
 
 /// k and c against those of the rig. A wrong clock leaves k as it is and changes c alone, when nothing else is wrong.
@@ -116,13 +120,13 @@ void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
     e.unexplained = Unexplained{"x_mm", msg("k is not that of rig.toml by far: does the file count x from the surface, and into the tooth?"),
                                 std::fabs(k - 1.0) * *rig.k_n_per_mm * std::sqrt(e.after->scene->spring_mm.square().mean())};
   }
-  if (std::fabs(k - 1.0) > k_told || std::fabs(c - 1.0) > k_told) e.notes.push_back(text);
+  if (std::fabs(k - 1.0) > k_told || std::fabs(c - 1.0) > k_told) e.notes.emplace_back("rig_differs", std::vector{"k_times", "c_times"}, text);
   if (e.verdict != Verdict::clean) return;
   if (k_off) {
     e.verdict = Verdict::unexplained;
     e.unexplained = Unexplained{"x_mm", msg("k differs from that of rig.toml"),
                                 std::fabs(k - 1.0) * *rig.k_n_per_mm * std::sqrt(e.after->scene->spring_mm.square().mean())};
-    e.next_experiment = msg("press a spring of known stiffness, and hang known weights on the load cell");
+    e.next_experiment = Fact("calibrate_force", msg("press a spring of known stiffness, and hang known weights on the load cell"));
     return;
   }
   if (!c_off || std::fabs(k - 1.0) > 0.5 * k_told) return;
@@ -131,30 +135,32 @@ void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
     e.unexplained = Unexplained{"v_mm_s", msg("c differs from that of rig.toml"),
                                 std::fabs(c - 1.0) * *rig.c_n_s_per_mm * std::sqrt(e.after->scene->damper_mm_s.square().mean())};
     if (c < 1.0)
-      e.notes.push_back(msg("a lag of {} of the force (delay or low_pass) takes as much from c: k and c alone cannot tell",
-                            as_s((1.0 - c) * *rig.c_n_s_per_mm / e.base.k_n_per_mm, k_as_needed)));
-    e.next_experiment = msg("press and stop suddenly, several times: a lag shows after each stop, a wrong c does not");
+      e.notes.emplace_back("lag_or_c", std::vector{"lag"},
+                           msg("a lag of {} of the force (delay or low_pass) takes as much from c: k and c alone cannot tell",
+                               as_s((1.0 - c) * *rig.c_n_s_per_mm / e.base.k_n_per_mm, k_as_needed)));
+    e.next_experiment = Fact("stop_suddenly", msg("press and stop suddenly, several times: a lag shows after each stop, a wrong c does not"));
   } else {
     e.verdict = Verdict::data_fault;
-    e.data_faults.push_back(msg("time base: {}, as when the clock is off by that factor; check the sampling rate, or c", text));
-    e.next_experiment = msg("record the speed too, or check the sampling rate against a clock");
+    e.data_faults.push_back(
+        {DataFault::Kind::time_base, msg("time base: {}, as when the clock is off by that factor; check the sampling rate, or c", text)});
+    e.next_experiment = Fact("check_clock", msg("record the speed too, or check the sampling rate against a clock"));
   }
 }
 
 /// As it is explained: on a common scale where its sessions are different specimens. With its notes, and its faults.
 Explanation opened(const Recording& given, const ExplainOptions& options) {
   Explanation e;
-  e.data_faults = texts_of(data_faults(given));
+  e.data_faults = data_faults(given);
   const std::optional<Recording> even = e.data_faults.empty() && !given.exact_motion ? with_even_stamps(given) : std::nullopt;
   const Recording& stamped = even ? *even : given;
   const std::optional<Recording> cut = e.data_faults.empty() && !given.exact_motion ? in_stretches(stamped) : std::nullopt;
   e.recording = std::make_shared<const Recording>(cut ? *cut : e.data_faults.empty() && are_specimens(stamped) ? on_common_scale(stamped) : stamped);
   e.notes = e.recording->notes;
   if (options.surrogates == 0)
-    e.notes.push_back(msg("without surrogates: judged as if independent noise were all that could mislead; causes may be false"));
+    e.notes.emplace_back("no_surrogates", msg("without surrogates: judged as if independent noise were all that could mislead; causes may be false"));
   if (!e.data_faults.empty()) {
     e.verdict = Verdict::data_fault;
-    e.next_experiment = msg("correct the recording: {}", e.data_faults.front());
+    e.next_experiment = correct_recording(e.data_faults);
   }
   return e;
 }
@@ -239,17 +245,18 @@ std::optional<Unexplained> doubtful(const Step& first) {
 
 /// What sessions differ in, and whether the recorded speed was used, as notes.
 void report_differences(Explanation& e, const Motion& motion) {
-  if ((motion.x_mm <= 0.0).all()) e.notes.push_back(msg("the tool never touches: only what acts in air can be found"));
+  if ((motion.x_mm <= 0.0).all()) e.notes.emplace_back("never_touches", msg("the tool never touches: only what acts in air can be found"));
   if (!motion.speed_note.empty()) e.notes.push_back(motion.speed_note);
   if (motion.noise_mm > 0.0)
-    e.notes.push_back(msg("the positions are noisy: {} from row to row", as_unit(1e3 * motion.noise_mm, cavum::Unit::um, 2)));
+    e.notes.emplace_back("positions_noisy", std::vector{"noise"},
+                         msg("the positions are noisy: {} from row to row", as_unit(1e3 * motion.noise_mm, cavum::Unit::um, 2)));
   const SessionSpread& s = e.spread;
   List differ;
   if (s[k_force_zero] > 0.5 * e.noise.sd_n) differ.items.push_back(msg("the zero of the force by {}", as_n(s[k_force_zero], 3)));
   if (s[k_surface_place] > 0.003) differ.items.push_back(msg("the place of the surface by {}", as_mm(s[k_surface_place], 3)));
   if (s[k_stiffness] > 0.01) differ.items.push_back(msg("stiffness by {}", as_percent(100.0 * s[k_stiffness], 1)));
   if (s[k_lateness] > 5e-4) differ.items.push_back(msg("lateness of the force, or c, by {}", as_unit(1e3 * s[k_lateness], cavum::Unit::ms, 1)));
-  if (!differ.items.empty()) e.notes.push_back(msg("sessions differ (standard deviation): {}", differ));
+  if (!differ.items.empty()) e.notes.emplace_back("sessions_differ", std::vector{"by"}, msg("sessions differ (standard deviation): {}", differ));
 }
 
 /// A zero of the force, a stiffness, or a lateness, that differs between sessions by what no simulation should miss; none where they are alike.

@@ -11,6 +11,7 @@
 
 #include "engine/base/lines.h"
 #include "engine/lab/explain/inference/search.h"
+#include "engine/lab/explain/recording/faults.h"
 
 namespace cavum::explain {
 
@@ -67,14 +68,15 @@ struct Explanation {
   std::vector<Cause> causes;
   std::optional<Unexplained> unexplained;
   std::vector<NotTestable> not_testable;
-  std::vector<Message> data_faults, notes;
+  std::vector<DataFault> data_faults;
+  Facts notes;
   Gain gain;
   Base base;  ///< fitted with the causes
   Interval k, c;
   Noise noise;
   double position_error_n = 0;  ///< rms of the force that the errors of position and speed may make by k and c, N
   SessionSpread spread{};       ///< what sessions differ by, beside the causes
-  Message next_experiment;
+  Fact next_experiment;
   std::vector<Structure> structures;           ///< of the residual that is left
   std::vector<Candidate> candidates;           ///< of the first look, for the report
   std::shared_ptr<const Recording> recording;  ///< as it was explained; the views refer to it
@@ -88,6 +90,9 @@ struct ExplainOptions {
   const Series* fixed_n = nullptr;       ///< forces of a loaded model, [rows]
   std::function<void(double)> progress;  ///< 0..1
 };
+
+/// What is to be done first.
+[[nodiscard]] Fact correct_recording(const std::vector<DataFault>& faults);
 
 [[nodiscard]] Explanation explain(const Recording& recording, const ExplainOptions& options = {});
 

@@ -74,16 +74,18 @@ TableFit fitted(const StiffnessTable& t, bool root, bool intercept, std::ptrdiff
 Interval interval(double value, double error) { return {value, value - k_95 * error, value + k_95 * error}; }
 
 /// What the table says about the law, sentence by sentence.
-std::vector<Message> sentences(const TableExplanation& e) {
+Facts sentences(const TableExplanation& e) {
   const double v = e.table.v_mm_s.front(), most = *std::max_element(e.table.k_n_per_mm.begin(), e.table.k_n_per_mm.end());
   const bool one_speed = std::set<double>(e.table.v_mm_s.begin(), e.table.v_mm_s.end()).size() == 1;
   const double share = 100.0 * std::min(1.0, e.of_root.intercept_n / std::max(1e-9, e.line.intercept_n));
-  std::vector<Message> out;
-  out.push_back(
+  Facts out;
+  out.emplace_back(
+      "intercept", std::vector{"speed", "force_at_0"},
       msg("The Voigt law has no intercept: cutting steadily at V = {} it gives F = k V τ + c V, which is 0 N at k = 0 (eq. 5 makes c = 0 there "
           "too). The table has {} at k = 0, and no τ and no c can make it.",
           as_unit(v, cavum::Unit::mm_per_s), as_n(e.line.intercept_n, 3)));
-  out.push_back(
+  out.emplace_back(
+      "offsets_alike",
       one_speed
           ? msg("Friction, bias and edge force cannot be told apart here: the crosshead goes one way, at one speed, always in contact and always "
                 "cutting. "
@@ -92,23 +94,27 @@ std::vector<Message> sentences(const TableExplanation& e) {
                 "always "
                 "cutting. Friction of the joints, a zero error of the load cell and a constant force of the cutting edges lift every row by the same "
                 "amount."));
-  out.push_back(
+  out.emplace_back(
+      "root_hides", std::vector{"root", "most", "at_k", "slope", "intercept", "share"},
       msg("c V with c = 2 √k adds {} √k N, {} at k = {}, and bends the row. A straight line laid through that bend alone has a slope of {} and an "
           "intercept of {}: so a line hides a √k as intercept and slope, yet it explains at most {} of the intercept here.",
           as_number(e.predicted_root, 3), as_n(e.predicted_root * std::sqrt(most), 3), as_number(most), as_mm(e.of_root.slope_mm, 3),
           as_n(e.of_root.intercept_n, 3), as_percent(share)));
-  out.push_back(
+  out.emplace_back(
+      "without_intercept", std::vector{"root", "slope", "rms", "at_0", "root_with_all", "root_published"},
       msg("Fitted without an intercept, k X + √k takes {} √k N and a slope of {} to imitate it, and still misses by {} rms and by {} at k = 0; "
           "with all three the table asks for {} √k N, where the published c V needs {}.",
           as_number(e.voigt.root, 3), as_mm(e.voigt.slope_mm, 3), as_n(e.voigt.rms_n, 3), as_n(e.line.intercept_n, 3),
           Number{e.all.root, cavum::Unit::none, 3, k_95 * e.all.root_error}, as_number(e.predicted_root, 3)));
   if (std::fabs(e.all.root - e.predicted_root) > std::max(k_95 * e.all.root_error, 0.1 * e.predicted_root))
-    out.push_back(
+    out.emplace_back(
+        "straight_row", std::vector{"slope", "time_constant", "instead_of"},
         msg("A straight row speaks against a force of c V with c = 2 √k. If it were there all the same, the slope of k X would be {}, and τ {} "
             "instead of {}.",
             as_mm(e.line.slope_mm - e.of_root.slope_mm, 3), as_s((e.line.slope_mm - e.of_root.slope_mm) / v, 2), as_s(e.line.slope_mm / v, 2)));
   if (e.exact)
-    out.push_back(
+    out.emplace_back(
+        "exact",
         msg("The points lie on the line to a thousandth of a newton, as points taken from an equation do: the intervals say nothing about the "
             "scatter of the measurement, and the straightness may be the equation's."));
   return out;
@@ -158,8 +164,8 @@ TableExplanation explain_table(const StiffnessTable& table) {
   Explanation& said = e.said;
   if (table.f_n.size() < 5 || std::set<double>(table.k_n_per_mm.begin(), table.k_n_per_mm.end()).size() < 4) {
     said.verdict = Verdict::data_fault;
-    said.data_faults.push_back(msg("a line, a root and an intercept need five rows of four stiffnesses at least"));
-    said.next_experiment = msg("measure at more stiffnesses");
+    said.data_faults.push_back({DataFault::Kind::too_few, msg("a line, a root and an intercept need five rows of four stiffnesses at least")});
+    said.next_experiment = Fact("more_stiffnesses", msg("measure at more stiffnesses"));
     return e;
   }
   e.line = fitted(table, false, true);
@@ -195,8 +201,8 @@ TableExplanation explain_table(const StiffnessTable& table) {
   const double gained = 100.0 * (1.0 - e.line.left_out_rms_n / std::max(1e-12, e.voigt.left_out_rms_n));
   said.gain.percent = {gained, gained, gained};
   said.notes = sentences(e);
-  if (!table.origin.empty()) said.notes.insert(said.notes.begin(), msg("The table says of itself: {}", table.origin));
-  said.next_experiment = next_experiment();
+  if (!table.origin.empty()) said.notes.insert(said.notes.begin(), Fact("origin", {"says"}, msg("The table says of itself: {}", table.origin)));
+  said.next_experiment = Fact("with_motion", next_experiment());
   return e;
 }
 
@@ -236,9 +242,9 @@ Lines to_text(const TableExplanation& e) {
   out.gap();
   out.append(law_rows(e), 2);
   out.gap();
-  for (const auto& s : said.notes) out.add(msg("- {}", s));
+  for (const auto& s : said.notes) out.add(msg("- {}", s.what()));
   out.gap();
-  out.add(msg("next experiment: {}", said.next_experiment));
+  out.add(msg("next experiment: {}", said.next_experiment.what()));
   return out;
 }
 

@@ -149,7 +149,7 @@ void judge_signs(const ContactSeen& seen, bool has_speed, double speed_agrees, s
                : msg("from x = {} on the force rises to {}", at, to);
   std::string options = force ? "--negate f" : "";
   if (position) options += fmt::format("{}--negate x{}", force ? " " : "", has_speed && speed_agrees > 0.0 ? " --negate v" : "");
-  doubts.push_back({true,
+  doubts.push_back({"sign", true,
                     !position ? msg("compression is counted negative: {}", where)
                     : force   ? msg("compression is counted negative, and the position grows out of the material: {}", where)
                               : msg("the position grows out of the material: {}", where),
@@ -163,7 +163,7 @@ void judge_origin(const Recording& r, const ContactSeen& seen, std::vector<Doubt
   const double before = r.reading && r.reading->surface_mm ? *r.reading->surface_mm : 0.0;
   const bool negated = r.reading && r.reading->columns.of(Role::position) != nullptr && r.reading->columns.of(Role::position)->negated;
   const double surface = negated ? before - seen.at_mm : before + seen.at_mm;
-  doubts.push_back({true,
+  doubts.push_back({"origin", true,
                     msg("contact begins at x = {} and goes {} deep: x is a machine's own position, not the penetration from the surface",
                         as_mm(seen.at_mm, k_as_needed), as_mm(depth, k_as_needed)),
                     fmt::format("--surface-mm {:.3f}", surface)});
@@ -175,15 +175,16 @@ void judge_size(const Recording& r, const ContactSeen& seen, std::vector<Doubt>&
   if (most < k_large_n || r.rig.k_n_per_mm) return;
   const ColumnReading* column = r.reading ? r.reading->columns.of(Role::force) : nullptr;
   if (column != nullptr && column->declared && column->unit.factor != 1.0) return;
-  doubts.push_back({false, msg("the force reaches {}: if it is in mN or in grams, say so", as_n(most, k_as_needed)), "--unit f=mN or --unit f=gf"});
+  doubts.push_back(
+      {"force_unit", false, msg("the force reaches {}: if it is in mN or in grams, say so", as_n(most, k_as_needed)), "--unit f=mN or --unit f=gf"});
 }
 
 /// A speed that is counted against the position, where the position itself is not to be turned.
 void judge_speed(const Conventions& c, std::vector<Doubt>& doubts) {
   const bool turned = c.contact && c.contact->towards < 0;
   if (c.speed_agrees >= k_against_speed || turned) return;
-  doubts.push_back(
-      {true, msg("the speed is counted against the position (correlation {} with its change)", as_number(c.speed_agrees)), "--negate v"});
+  doubts.push_back({"speed_sign", true, msg("the speed is counted against the position (correlation {} with its change)", as_number(c.speed_agrees)),
+                    "--negate v"});
 }
 
 }  // namespace
@@ -208,11 +209,12 @@ Conventions judge_conventions(const Recording& r) {
   return out;
 }
 
-std::vector<Message> require_conventions(const Recording& r, const std::string& where, bool as_it_is) {
+Facts require_conventions(const Recording& r, const std::string& where, bool as_it_is) {
   const Conventions found = judge_conventions(r);
-  std::vector<Message> notes;
+  Facts notes;
   for (const Doubt& d : found.doubts)
-    if (!d.clear || as_it_is) notes.push_back(msg("doubt: {}; give {}", d.what, d.options));
+    if (!d.clear || as_it_is)
+      notes.push_back(Fact("doubt", {"what", "options"}, msg("doubt: {}; give {}", d.what, d.options)).with("doubt", Name{d.kind}));
   if (as_it_is || found.first_clear() == nullptr) return notes;
   List what{{}, true};
   std::string options;
@@ -221,7 +223,7 @@ std::vector<Message> require_conventions(const Recording& r, const std::string& 
       what.items.push_back(d.what);
       options += fmt::format("{}{}", options.empty() ? "" : " ", d.options);
     }
-  throw Error(where, msg("{}", what),
+  throw Error(ConventionError::data_fault, Name{where}, msg("{}", what),
               msg("give {}, or --as-it-is where nothing is to be turned (a joint in air may look so); look first with --dry-run", options));
 }
 

@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/named_enum.h"
 #include "engine/lab/explain/recording/recording.h"
 
 namespace cavum::explain {
 
 /// Something that does not look as a recording should.
 struct Doubt {
+  const char* kind;     ///< sign, origin, force_unit, speed_sign
   bool clear = false;   ///< an analysis would be of another thing: `explain` refuses
   Message what;         ///< with figures
   std::string options;  ///< what puts it right: "--negate f"
@@ -34,7 +36,10 @@ struct Conventions {
 
 /// Looks at no more than 200,000 rows, evenly spaced. Nothing is judged below 50 rows.
 [[nodiscard]] Conventions judge_conventions(const Recording& recording);
-/// Throws Error(where, what, options) when a doubt is clear and nobody said that all is well (`as_it_is`); the others in words, as notes.
-[[nodiscard]] std::vector<Message> require_conventions(const Recording& recording, const std::string& where, bool as_it_is = false);
+#define CAVUM_CONVENTION_ERRORS(ERROR) ERROR(data_fault)
+CAVUM_NAMED_ENUM(ConventionError, CAVUM_CONVENTION_ERRORS)
+/// Throws Error(ConventionError::data_fault, where, what, options) when a doubt is clear and nobody said that all is well (`as_it_is`); the others in
+/// words, as notes.
+[[nodiscard]] Facts require_conventions(const Recording& recording, const std::string& where, bool as_it_is = false);
 
 }  // namespace cavum::explain

@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "engine/base/message_json.h"
 #include "engine/base/order.h"
 #include "engine/base/text.h"
 #include "engine/lab/explain/recording/as_recorded.h"
@@ -159,6 +161,8 @@ std::vector<DataFault> data_faults(const Recording& r) {
   if (r.rows() < 200) faults.push_back({DataFault::Kind::too_few, msg("only {} rows; record for at least a minute", r.rows())});
   return faults;
 }
+
+void to_json(nlohmann::json& json, const DataFault& fault) { json = fact_json(name_in(fault.kind), fault.what); }
 
 std::vector<Message> texts_of(const std::vector<DataFault>& faults) {
   std::vector<Message> texts;

@@ -69,7 +69,7 @@ void set_layers(Recording& r) {
     layers.items.push_back(name == reference ? msg("layer {} (k and c below): k {}, c {} N s/mm", as_number(name), k, c)
                                              : msg("layer {}: k {}, c {} N s/mm", as_number(name), k, c));
   }
-  r.notes.push_back(msg("layers have k and c of their own, words numbered in order of appearance: {}", layers));
+  r.notes.emplace_back("layers", std::vector{"layers"}, msg("layers have k and c of their own, words numbered in order of appearance: {}", layers));
 }
 
 }  // namespace cavum::explain

@@ -269,13 +269,15 @@ Motion best_motion(const Recording& r) {
   const bool recedes = surface_recedes(r);
   if (r.v_mm_s.size() > 0 && !recedes) {
     if (const SpeedCheck check = check_speed(r); !is_coarse(out)) {
-      out.speed_note = msg("v_mm_s was not needed: the positions are fine enough to give the speed");
+      out.speed_note = Fact("speed_not_needed", msg("v_mm_s was not needed: the positions are fine enough to give the speed"));
     } else if (!check.of_use) {
       out.speed_note =
           check.borrowed > k_borrowed && std::fabs(check.late_s) < 2.0 * check.late_sd_s + 1e-4
-              ? msg("v_mm_s was not used: it is made from the positions and shares their errors, so the speed is taken from the positions")
-              : msg("v_mm_s was not used: it is {} behind the positions, so the speed is taken from them",
-                    as_unit(1e3 * check.late_s, cavum::Unit::ms, 1));
+              ? Fact("speed_made_of_positions",
+                     msg("v_mm_s was not used: it is made from the positions and shares their errors, so the speed is taken from the positions"))
+              : Fact("speed_late", {"late"},
+                     msg("v_mm_s was not used: it is {} behind the positions, so the speed is taken from them",
+                         as_unit(1e3 * check.late_s, cavum::Unit::ms, 1)));
     } else {
       out.speed_sd_mm_s = std::max(1e-4, speed_scatter_mm_s(r));
     }

@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/fact.h"
 #include "engine/lab/explain/recording/recording.h"
 
 namespace cavum::explain {
@@ -31,8 +32,8 @@ struct Motion {
   double noise_mm = 0.0;       ///< of the position, from row to row, beside the quantum; 0 = not to be seen
   double speed_sd_mm_s = 0.0;  ///< scatter of the measured speed, where it was used
   std::vector<std::pair<Series, Series>>
-      possible;        ///< x and v of a few motions that the recording leaves possible as well; empty where it leaves none
-  Message speed_note;  ///< why a measured speed was not used; empty = it was, or there is none
+      possible;     ///< x and v of a few motions that the recording leaves possible as well; empty where it leaves none
+  Fact speed_note;  ///< why a measured speed was not used; empty = it was, or there is none
 };
 
 /// Less than 1 % of the rows go back at a tenth of the fastest speed or more.

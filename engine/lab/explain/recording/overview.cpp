@@ -83,7 +83,7 @@ Overview overview_of(const Recording& r) {
   force.rig.position_quantum_mm = 0.0;
   out.force_quantum_n = seen_quantum_mm(force);
   out.conventions = judge_conventions(r);
-  if (out.conventions.first_clear() == nullptr) out.faults = texts_of(data_faults(r));  // else they would be of another thing
+  if (out.conventions.first_clear() == nullptr) out.faults = data_faults(r);  // else they would be of another thing
   out.notes = r.notes;
   return out;
 }

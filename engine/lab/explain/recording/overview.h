@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/lab/explain/recording/conventions.h"
+#include "engine/lab/explain/recording/faults.h"
 
 namespace cavum::explain {
 
@@ -37,8 +38,8 @@ struct Overview {
   std::vector<ColumnSeen> columns;                          ///< the motion first
   double position_quantum_mm = 0.0, force_quantum_n = 0.0;  ///< seen in the data; 0 = none
   Conventions conventions;
-  std::vector<Message> faults;  ///< data_faults; not looked for where a doubt is clear
-  std::vector<Message> notes;
+  std::vector<DataFault> faults;  ///< data_faults; not looked for where a doubt is clear
+  Facts notes;
   /// `explain` would refuse it, or call it a data fault.
   [[nodiscard]] bool refused() const { return conventions.first_clear() != nullptr || !faults.empty(); }
 };

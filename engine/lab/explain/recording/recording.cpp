@@ -58,10 +58,12 @@ void add_row(std::vector<SessionRows>& sessions, std::string_view name, const Ro
 /// Puts a column beside the motion where it belongs.
 void keep(const std::string& name, const ColumnValues& column, Recording& out) {
   if (column.missing == column.values.size()) {
-    out.notes.push_back(msg("column '{}' is empty and left out", name));
+    out.notes.emplace_back("column_empty", std::vector{"column"}, msg("column '{}' is empty and left out", name));
     return;
   }
-  if (column.missing > 0) out.notes.push_back(msg("column '{}': {} missing values repeat the last one", name, column.missing));
+  if (column.missing > 0)
+    out.notes.emplace_back("values_missing", std::vector{"column", "values"},
+                           msg("column '{}': {} missing values repeat the last one", name, column.missing));
   out.columns.emplace_back(one_line(name), as_series(column.values));
 }
 
@@ -98,18 +100,23 @@ double stamp_s(const RowReader& in, const ColumnReading& column, const ColumnPla
 void note_reading(const Reading& reading, const StampReader& stamps, Recording& out) {
   for (const ColumnReading& c : reading.columns.motion) {
     if (c.role == Role::time) {
-      if (stamps.kind() != StampReader::Kind::seconds) out.notes.push_back(msg("time: column '{}' holds {}", c.header.whole, stamps.words()));
+      if (stamps.kind() != StampReader::Kind::seconds)
+        out.notes.emplace_back("time_stamps", std::vector{"column", "holds"}, msg("time: column '{}' holds {}", c.header.whole, stamps.words()));
       if (stamps.kind() != StampReader::Kind::seconds || c.unit.factor == 1.0) continue;
     }
     if (c.unit.mass_word)
-      out.notes.push_back(msg("UNIT: column '{}' is in {}, a mass: taken as the force that it weighs ({} for 1)", c.header.whole, c.header.unit,
-                              as_n(c.unit.factor, k_as_needed)));
+      out.notes.emplace_back("unit_of_mass", std::vector{"column", "unit", "one_weighs"},
+                             msg("UNIT: column '{}' is in {}, a mass: taken as the force that it weighs ({} for 1)", c.header.whole, c.header.unit,
+                                 as_n(c.unit.factor, k_as_needed)));
     else if (c.unit.factor != 1.0)
-      out.notes.push_back(
+      out.notes.emplace_back(
+          "unit_converted", std::vector{"column", "unit", "factor", "as"},
           msg("unit: column '{}' is in {}: times {} for {}", c.header.whole, c.unit.shown, as_number(c.unit.factor), contract_name(c.role)));
     else if (!c.declared)
-      out.notes.push_back(msg("unit: column '{}' does not say its unit: taken as {}", c.header.whole, c.unit.shown));
-    if (c.negated) out.notes.push_back(msg("sign: column '{}' was counted the other way (--negate)", c.header.whole));
+      out.notes.emplace_back("unit_assumed", std::vector{"column", "unit"},
+                             msg("unit: column '{}' does not say its unit: taken as {}", c.header.whole, c.unit.shown));
+    if (c.negated)
+      out.notes.emplace_back("negated", std::vector{"column"}, msg("sign: column '{}' was counted the other way (--negate)", c.header.whole));
   }
 }
 
@@ -153,7 +160,7 @@ Recording parse_recording_as(const std::string& csv, const std::string& where, c
     add_row(out.sessions, plan.session ? in.cells()[*plan.session] : "1", in);
   }
   if (out.sessions.empty()) throw Error(where, msg("has a header and no rows"), msg("give a recording"));
-  if (!plan.session) out.notes.push_back(msg("no column 'session': everything is taken for one session"));
+  if (!plan.session) out.notes.emplace_back("one_session", msg("no column 'session': everything is taken for one session"));
   note_reading(*reading, stamps, out);
   for (std::size_t i = 0; i < motion.size(); ++i) *place_of(plan.motion[i].role, out) = as_series(motion[i]);
   for (std::size_t i = 0; i < header.size(); ++i)
@@ -199,7 +206,7 @@ Recording read_recording(const std::string& path, const std::string& rig_path, c
   if (!rig_path.empty() || fs::exists(beside, ignored))
     out.rig = parse_rig(read_text_file(beside), beside);
   else
-    out.notes.push_back(msg("no rig.toml beside the recording: k, c and the quanta are found from the data"));
+    out.notes.emplace_back("no_rig", msg("no rig.toml beside the recording: k, c and the quanta are found from the data"));
   set_layers(out);
   return out;
 }

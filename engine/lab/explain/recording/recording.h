@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/fact.h"
 #include "engine/base/message.h"
 #include "engine/lab/explain/recording/columns.h"
 #include "engine/lab/explain/recording/table_form.h"
@@ -53,7 +54,7 @@ struct Recording {
   bool friction_by_path = false;  ///< friction is against the tip's whole motion (slide_mm_s across the feed), as the engine's; false: along the feed
   bool exact_motion = false;      ///< x and v come from the engine itself: nothing to estimate or to check
   bool specimens = false;         ///< sessions are different specimens, brought to a common scale (specimens.h)
-  std::vector<Message> notes;     ///< what was assumed while reading
+  Facts notes;                    ///< what was assumed while reading
   std::shared_ptr<const Reading> reading;  ///< how the table was read; null for a session and for what was made
 
   [[nodiscard]] Eigen::Index rows() const { return t_s.size(); }

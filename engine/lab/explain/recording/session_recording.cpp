@@ -179,11 +179,13 @@ Recording read_session_recording(const std::string& path, const std::string& for
   r.friction_by_path = own_law;
   r.rig.force_quantum_n = own_law ? k_felt_n : 0.0;
   r.notes.push_back(
-      own_law ? msg("force: the session's own law, for it holds no measured one. What is found is what its force terms add to k X + c V; it "
-                    "says nothing about real tissue. Rendering and safety made {} rms of difference to it",
-                    as_n(rendering.rms_n(), k_as_needed))
-              : msg("force: {}. X and V are the simulation's", measured.source));
-  r.notes.push_back(msg("{} contacts of half a second or more count as sessions; time in air is left out", r.sessions.size()));
+      own_law ? Fact("force_of_own_law", {"difference"},
+                     msg("force: the session's own law, for it holds no measured one. What is found is what its force terms add to k X + c V; it "
+                         "says nothing about real tissue. Rendering and safety made {} rms of difference to it",
+                         as_n(rendering.rms_n(), k_as_needed)))
+              : Fact("force_measured", {"source"}, msg("force: {}. X and V are the simulation's", measured.source)));
+  r.notes.emplace_back("contacts_as_sessions", std::vector{"contacts"},
+                       msg("{} contacts of half a second or more count as sessions; time in air is left out", r.sessions.size()));
   return r;
 }
 

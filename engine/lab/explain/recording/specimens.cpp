@@ -82,7 +82,8 @@ Recording on_common_scale(const Recording& r) {
   out.rig.position_quantum_mm = 0.0;  // no longer one step for all; it was fine enough to be found again if it matters
   out.rig.force_quantum_n = 0.0;
   out.rig.force_limit_n.reset();
-  out.notes.push_back(
+  out.notes.emplace_back(
+      "specimens", std::vector{"sessions", "depth", "peak"},
       msg("{} sessions differ in stiffness as different specimens do: each counts from its own surface, at the mean depth of {} and the mean peak of "
           "{}; k, c and forces are on that scale",
           r.sessions.size(), as_mm(depth, 3), as_n(peak, 3)));

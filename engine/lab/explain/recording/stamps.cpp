@@ -57,8 +57,9 @@ std::optional<Recording> with_even_stamps(const Recording& r) {
     out.t_s.segment(rows.begin, n) = even;
   }
   if (smooth > k_smoother * rough) return std::nullopt;
-  out.notes.push_back(msg("t_s is uneven by {}, and the motion is smooth only over even stamps: rows were taken as sampled evenly",
-                          as_unit(1e3 * off, cavum::Unit::ms, k_as_needed)));
+  out.notes.emplace_back("uneven_stamps", std::vector{"uneven_by"},
+                         msg("t_s is uneven by {}, and the motion is smooth only over even stamps: rows were taken as sampled evenly",
+                             as_unit(1e3 * off, cavum::Unit::ms, k_as_needed)));
   return out;
 }
 

@@ -27,7 +27,8 @@ std::optional<Recording> in_stretches(const Recording& r) {
     out.sessions.push_back({fmt::format("{}, stretch {}", name, i), begin, end});
     begin = end;
   }
-  out.notes.push_back(msg("one session alone: {} stretches of it are taken as sessions; several sessions tell more", k_stretches));
+  out.notes.emplace_back("stretches", std::vector{"stretches"},
+                         msg("one session alone: {} stretches of it are taken as sessions; several sessions tell more", k_stretches));
   return out;
 }
 

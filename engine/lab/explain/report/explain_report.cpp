@@ -45,6 +45,11 @@ const VerdictWords& words_of(Verdict v) {
 const char* verdict_name(Verdict v) noexcept { return words_of(v).name; }
 Message word_of(Verdict v) { return words_of(v).word; }
 
+Fact correct_recording(const std::vector<DataFault>& faults) {
+  const DataFault& first = faults.at(0);
+  return Fact("correct_recording", {"what"}, msg("correct the recording: {}", first.what)).with("fault", Name{std::string(name_in(first.kind))});
+}
+
 Message in_words(const Explanation& e) {
   if (e.unexplained && e.verdict == Verdict::alias)
     return msg("Something is missing, but these data cannot tell which of several mechanisms it is; and something about {} stays unexplained.",
@@ -156,7 +161,7 @@ Lines gain_words(const Explanation& e) {
 Lines to_text(const Explanation& e) {
   Lines out;
   out.add(msg("verdict: {}. {}", word_of(e.verdict), in_words(e)));
-  for (const auto& f : e.data_faults) out.add(msg("fault: {}", f));
+  for (const auto& f : e.data_faults) out.add(msg("fault: {}", f.what));
   if (e.verdict == Verdict::data_fault) return out;
   for (const auto& c : e.causes) {
     out.gap();
@@ -172,8 +177,8 @@ Lines to_text(const Explanation& e) {
     for (const auto& n : e.not_testable) names.items.emplace_back(Name{n.mechanism});
     out.add(msg("not testable with these data: {}", names));
   }
-  out.add(msg("next experiment: {}", e.next_experiment));
-  for (const auto& n : e.notes) out.add(msg("note: {}", n));
+  out.add(msg("next experiment: {}", e.next_experiment.what()));
+  for (const auto& n : e.notes) out.add(msg("note: {}", n.what()));
   return out;
 }
 

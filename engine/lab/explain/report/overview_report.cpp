@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/base/message_json.h"
 #include "engine/base/text.h"
 
 namespace cavum::explain {
@@ -62,7 +63,10 @@ json to_json(const Overview& o) {
   if (const auto& c = o.conventions.contact)
     j["contact"] = {{"at_mm", c->at_mm}, {"air_n", c->air_n}, {"reached_n", c->reached_n}, {"towards", c->towards}};
   j["doubts"] = json::array();
-  for (const Doubt& d : o.conventions.doubts) j["doubts"].push_back({{"what", d.what}, {"options", d.options}, {"clear", d.clear}});
+  for (const Doubt& d : o.conventions.doubts) {
+    j["doubts"].push_back(fact_json(d.kind, d.what));
+    j["doubts"].back().update({{"options", d.options}, {"clear", d.clear}});
+  }
   j["data_faults"] = o.faults;
   j["notes"] = o.notes;
   j["refused"] = o.refused();
@@ -91,8 +95,8 @@ Lines to_text(const Overview& o) {
   out.add(contact_words(o.conventions));
   for (const Doubt& d : o.conventions.doubts)
     out.add(d.clear ? msg("refused: {}; give {}", d.what, d.options) : msg("doubt: {}; give {}", d.what, d.options));
-  for (const Message& fault : o.faults) out.add(msg("fault: {}", fault));
-  for (const Message& note : o.notes) out.add(msg("note: {}", note));
+  for (const DataFault& fault : o.faults) out.add(msg("fault: {}", fault.what));
+  for (const Fact& note : o.notes) out.add(msg("note: {}", note.what()));
   out.add(o.refused() ? msg("explain would not take it as it is") : msg("explain would take it"));
   return out;
 }

@@ -30,6 +30,7 @@
 #include "engine/base/file.h"
 #include "engine/base/file_error.h"
 #include "engine/base/order.h"
+#include "engine/base/system_error.h"
 #include "engine/base/text.h"
 #include "engine/tooth/volume/dicom_bytes.h"
 #include "engine/tooth/volume/volume_files.h"
@@ -355,7 +356,7 @@ int send(const std::string& path, int fd, const Limit& set_limits) {
     std::replace(what.begin(), what.end(), '\n', ' ');
     error.emplace(path, msg("cannot be read as a volume ({})", what.substr(0, 200)), msg(k_intact));
   } catch (const fs::filesystem_error& e) {
-    error.emplace(path, Name{e.code().message()}, msg("check the path and its permissions"));
+    error.emplace(path, system_words(e.code().value()), msg("check the path and its permissions"));
   } catch (const std::bad_alloc&) {
     error.emplace(path, msg("needs more memory than the limit of {} bytes", most_read_memory(bytes)), msg(k_intact));
   } catch (const std::exception& e) {

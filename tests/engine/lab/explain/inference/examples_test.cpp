@@ -55,8 +55,8 @@ TEST(Fig6, TheRootOfKIsWorkedOut) {
   EXPECT_NEAR(e.of_root.intercept_n, (sf - slope * sk) / n, 1e-12);
   EXPECT_NEAR(e.all.root, 0.0, 1e-9);  // the published line is straight
   EXPECT_GT(e.voigt.rms_n, 0.2);       // and no Voigt law fits it
-  EXPECT_TRUE(std::any_of(e.said.notes.begin(), e.said.notes.end(), [](const Message& note) {
-    return english_text(note).find("0.097 N") != std::string::npos;
+  EXPECT_TRUE(std::any_of(e.said.notes.begin(), e.said.notes.end(), [](const Fact& note) {
+    return note.kind() == "intercept" && english_text(note.what()).find("0.097 N") != std::string::npos;
   })) << "at k = 0";
 }
 

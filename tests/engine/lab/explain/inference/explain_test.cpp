@@ -175,7 +175,9 @@ TEST(Explain, FaultyDataGiveNoCause) {
   std::swap(r.t_s[10], r.t_s[11]);
   const auto j = to_json(explain(r));
   EXPECT_EQ(j["verdict"], "data_fault");
-  EXPECT_EQ(j["data_faults"].size(), 1u);
+  ASSERT_EQ(j["data_faults"].size(), 1u);
+  EXPECT_EQ(j["data_faults"][0]["kind"], "time_stamps");
+  EXPECT_EQ(j["next_experiment"]["values"]["fault"], "time_stamps");
 }
 
 TEST(Explain, MeatUnderTheIndenterRelaxesWithTwoTimeConstants) {

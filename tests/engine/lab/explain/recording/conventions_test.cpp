@@ -42,8 +42,8 @@ TEST(Conventions, CompressionThatIsNegativeIsToldWithItsOption) {
   r.f_n = -r.f_n;
   EXPECT_EQ(proposed(r), "--negate f");
   EXPECT_THROW(static_cast<void>(require_conventions(r, "r.csv")), Error);
-  const std::vector<Message> as_it_is = require_conventions(r, "r.csv", true);
-  EXPECT_TRUE(as_it_is.size() == 1 && testing_basics::tells(as_it_is, "--negate f")) << "the user's word goes before ours, and is not forgotten";
+  const Facts as_it_is = require_conventions(r, "r.csv", true);
+  EXPECT_TRUE(as_it_is.size() == 1 && testing_basics::tells(words_of(as_it_is), "--negate f")) << "the user's word goes before ours, and is not forgotten";
 }
 
 TEST(Conventions, APositionThatGrowsOutOfTheMaterialIsToldWithItsSpeed) {
@@ -98,9 +98,9 @@ TEST(Conventions, AForceThatNoHandReachesIsADoubtAndNoRefusal) {
   Recording r = made::recording({});
   r.f_n *= 1000.0;
   r.rig = {};
-  const std::vector<Message> notes = require_conventions(r, "r.csv");
+  const Facts notes = require_conventions(r, "r.csv");
   ASSERT_EQ(notes.size(), 1U);
-  EXPECT_TRUE(testing_basics::tells(notes, "--unit f=mN or --unit f=gf"));
+  EXPECT_TRUE(testing_basics::tells(words_of(notes), "--unit f=mN or --unit f=gf"));
   r.rig.k_n_per_mm = 800.0;
   EXPECT_TRUE(require_conventions(r, "r.csv").empty()) << "a rig that says so";
 }

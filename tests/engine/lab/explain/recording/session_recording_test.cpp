@@ -48,7 +48,7 @@ std::string make_session(const std::string& path, bool with_force) {
   return csv;
 }
 
-Message first_note(const Recording& r) { return r.notes.empty() ? Message() : r.notes.front(); }
+Message first_note(const Recording& r) { return r.notes.empty() ? Message() : r.notes.front().what(); }
 
 TEST(SessionRecording, AMeasuredForceIsReadFromTheSessionAndItsFrictionIsNamed) {
   const test::Folder folder;
