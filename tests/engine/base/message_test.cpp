@@ -61,8 +61,10 @@ TEST(Message, IsEqualBySentenceAndValues) {
   EXPECT_NE(msg("{} of {}", 1, 2), Message());
 }
 
-enum class Kettle { cold, empty };
-enum class Stove { cold };
+#define KETTLE(ERROR) ERROR(cold) ERROR(empty)
+#define STOVE(ERROR) ERROR(cold)
+CAVUM_NAMED_ENUM(Kettle, KETTLE)
+CAVUM_NAMED_ENUM(Stove, STOVE)
 
 TEST(Error, IsToldFromOthersByItsCode) {
   const Error e(Kettle::cold, FilePlace{"tea.toml", 2, 1}, msg("is cold"), msg("heat it"));
