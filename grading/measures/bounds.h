@@ -19,7 +19,8 @@ struct WallValues {
   std::vector<double> own;        ///< of this wall, within a leaf of another
   std::vector<double> of_others;  ///< of another wall, within a leaf of this one
 };
-/// How far the mean may be off because places near the wall's edge count to one wall or the other. 0 without values.
+/// How far the mean may be off because places near the wall's edge count to one wall or the other; what the leaf adds, `wall_measures` of
+/// cut_surface.cpp does. 0 without values.
 [[nodiscard]] double mean_bound(const WallValues& values);
 /// The same for the 95th percentile (nearest rank).
 [[nodiscard]] double p95_bound(const WallValues& values);
