@@ -43,8 +43,8 @@ Json json_of(const MarkedSession& g) {
   return j;
 }
 
-void write_new(const std::string& path, const Json& json) {
-  write_text_file(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", {.may_replace = false});
+void write_new(const std::string& path, const Json& grades) {
+  write_text_file(path, grades.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", {.may_replace = false});
 }
 
 void say_regrade(const MarkedSession& g) {

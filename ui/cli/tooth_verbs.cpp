@@ -255,13 +255,13 @@ void add_make(CLI::App& tooth) {
 void add_info(CLI::App& tooth) {
   auto* info = tooth.add_subcommand("info", tr("What a tooth file holds"));
   auto path = std::make_shared<std::string>();
-  auto json = std::make_shared<bool>(false);
+  auto as_json = std::make_shared<bool>(false);
   info->add_option("FILE", *path, tr("Tooth file (.cvt)"))->required();
-  info->add_flag("--json", *json, tr("One JSON object on stdout"));
+  info->add_flag("--json", *as_json, tr("One JSON object on stdout"));
   info->callback([=] {
     const Tooth t = load_tooth_file(*path);
     const Json d = describe(t, std::filesystem::file_size(*path));
-    if (*json)
+    if (*as_json)
       print_json(d);
     else
       print_tooth(t, d);

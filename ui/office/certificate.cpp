@@ -30,7 +30,7 @@ struct Release {
 };
 using Key = std::unique_ptr<EVP_PKEY, Release<EVP_PKEY_free>>;
 using Certificate = std::unique_ptr<X509, Release<X509_free>>;
-using Stream = std::unique_ptr<BIO, Release<BIO_free_all>>;
+using BioHandle = std::unique_ptr<BIO, Release<BIO_free_all>>;
 using Extension = std::unique_ptr<X509_EXTENSION, Release<X509_EXTENSION_free>>;
 using Number = std::unique_ptr<BIGNUM, Release<BN_free>>;
 
@@ -87,7 +87,7 @@ void make_certificate(const CertificateFiles& files, const std::vector<std::stri
   extend(made.get(), NID_ext_key_usage, "serverAuth");
   extend(made.get(), NID_subject_alt_name, alternatives(names));
   require(X509_sign(made.get(), key.get(), EVP_sha256()) > 0);
-  const Stream key_text(BIO_new(BIO_s_mem())), text(BIO_new(BIO_s_mem()));
+  const BioHandle key_text(BIO_new(BIO_s_mem())), text(BIO_new(BIO_s_mem()));
   require(key_text && text && PEM_write_bio_PrivateKey(key_text.get(), key.get(), nullptr, nullptr, 0, nullptr, nullptr) == 1 &&
           PEM_write_bio_X509(text.get(), made.get()) == 1);
   make_private_folder(std::filesystem::path(files.key).parent_path().string());
@@ -97,7 +97,7 @@ void make_certificate(const CertificateFiles& files, const std::vector<std::stri
 
 std::string fingerprint_of(const std::string& file) {
   const std::string text = read_text_file(file);
-  const Stream stream(BIO_new_mem_buf(text.data(), static_cast<int>(text.size())));
+  const BioHandle stream(BIO_new_mem_buf(text.data(), static_cast<int>(text.size())));
   const Certificate read(PEM_read_bio_X509(stream.get(), nullptr, nullptr, nullptr));
   Sha256 hash{};
   if (!read || X509_digest(read.get(), EVP_sha256(), hash.data(), nullptr) != 1)
