@@ -104,7 +104,8 @@ void write_file(const std::string& path, std::span<const std::uint8_t> bytes, co
   const std::string temporary = temporary_name_beside(path);
   const auto fail = [&](const Message& what, int error) {
     ::unlink(temporary.c_str());
-    throw Error(error == EEXIST ? FileError::exists : FileError::not_written, Name{path}, msg("{} ({})", what, system_words(error)), msg(k_try_again));
+    throw Error(error == EEXIST ? FileError::exists : FileError::not_written, Name{path}, msg("{} ({})", what, system_words(error)),
+                msg(k_try_again));
   };
   {
     const Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, how.is_private ? 0600 : 0666));
@@ -140,7 +141,8 @@ void make_private_folder(const std::string& path) {
     const int error = errno;
     std::error_code none;
     if (!fs::is_directory(made, none))
-      throw Error(FileError::not_written, Name{path}, msg("cannot be made ({})", system_words(error)), msg("name another folder, or make it yourself"));
+      throw Error(FileError::not_written, Name{path}, msg("cannot be made ({})", system_words(error)),
+                  msg("name another folder, or make it yourself"));
   }
 }
 

@@ -1,6 +1,5 @@
 #include "engine/session/disk_refusal.h"
 
-
 #include "engine/base/system_error.h"
 
 namespace cavum {

@@ -115,7 +115,7 @@ ListMistakes::ListMistakes(const std::string& where, std::vector<Error> mistakes
     : Error(where, msg("has {} mistakes", mistakes.size()), msg("the first: {}", mistakes.at(0).message())), mistakes_(std::move(mistakes)) {}
 
 void Mistakes::tell() {
-  if (number_ > mistakes_.size()) 
+  if (number_ > mistakes_.size())
     mistakes_.emplace_back(where_, msg("has {} mistakes more", number_ - mistakes_.size()), msg("put these right first"));
   if (number_ > 0) throw ListMistakes(where_, std::move(mistakes_));
 }

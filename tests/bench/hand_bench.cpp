@@ -22,8 +22,8 @@ void print_tick(double t_s, double us, const TickOutput& out, const ServoState& 
   std::printf(
       "%9.5f s %6.1f us; looked up %4d, half spaces %3zu, proxy moved %.4f mm; X %.4f, owed %.4f mm; F %.3f N; normal %+.2f %+.2f %+.2f; removed "
       "%u%s\n",
-      t_s, us, state.scratch.looked_up, c.gathered.half_spaces.size(), hop_mm, out.penetration_mm, state.recession.pending_mm, length(out.rendered_force_n),
-      out.normal.x, out.normal.y, out.normal.z, out.removed_count, state.carving.under_way() ? ", carving" : "");
+      t_s, us, state.scratch.looked_up, c.gathered.half_spaces.size(), hop_mm, out.penetration_mm, state.recession.pending_mm,
+      length(out.rendered_force_n), out.normal.x, out.normal.y, out.normal.z, out.removed_count, state.carving.under_way() ? ", carving" : "");
 }
 
 void drill(double seconds, double tick_s, double from_s, double to_s) {

@@ -45,8 +45,8 @@ std::string golden_of(const std::string& name) {
     EXPECT_TRUE(p.where.line > 0 && p.where.column > 0 && !p.what.empty() && !p.what_to_do.empty()) << english_text(p.message());
     const bool plain = p.mistake == Mistake::not_toml || p.mistake == Mistake::condition;
     const std::string values = plain ? "" : values_of(p.what), remedy = plain ? "" : values_of(p.what_to_do);
-    all += std::to_string(p.where.line) + ":" + std::to_string(p.where.column) + (p.warning ? " warning " : " ") +
-           std::string(name_in(p.mistake)) + (values.empty() ? "" : ": " + values) + (remedy.empty() ? "" : "; " + remedy) + "\n";
+    all += std::to_string(p.where.line) + ":" + std::to_string(p.where.column) + (p.warning ? " warning " : " ") + std::string(name_in(p.mistake)) +
+           (values.empty() ? "" : ": " + values) + (remedy.empty() ? "" : "; " + remedy) + "\n";
   }
   return all;
 }

@@ -44,11 +44,14 @@ class Program : public ::testing::Test {
     EXPECT_EQ(r.exit_code, 0) << arguments << r.err;
     return nlohmann::json::parse(r.out, nullptr, false);
   }
-  /// Exit 2, nothing on standard output, and one line of error that holds all of `parts`.
+  /// Exit 2, nothing on standard output but the error as JSON where that was asked for, and one line of error that holds all of `parts`.
   void expect_refused(const std::string& arguments, const std::vector<std::string>& parts) const {
     const Ran r = run(arguments);
     EXPECT_EQ(r.exit_code, 2) << arguments << "\n" << r.err;
-    EXPECT_EQ(r.out, "") << arguments;
+    if (arguments.find("--json") == std::string::npos)
+      EXPECT_EQ(r.out, "") << arguments;
+    else
+      EXPECT_TRUE(nlohmann::json::parse(r.out, nullptr, false).contains("error")) << arguments << r.out;
     EXPECT_TRUE(r.err.starts_with("cavum: ")) << r.err;
     EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
     for (const auto& p : parts) EXPECT_NE(r.err.find(p), std::string::npos) << "'" << p << "' is missing in: " << r.err;

@@ -93,7 +93,7 @@ LinkView StationLink::view() const {
 void StationLink::read(std::uint64_t entry) {
   const std::lock_guard guard(lock_);
   heard_ = std::max(heard_, entry);
-  std::erase_if(view_.told, [&](const Announced& t) { return t.entry <= entry; });
+  std::erase_if(view_.told, [&](const ReceivedAnnouncement& t) { return t.entry <= entry; });
 }
 
 void StationLink::release(std::uint64_t hold) {

@@ -29,7 +29,7 @@ struct LinkOptions {
 };
 
 /// What an announcement says.
-struct Announced {
+struct ReceivedAnnouncement {
   std::uint64_t entry = 0;
   std::string text;
   std::int64_t utc_ns = 0;  ///< when it was made, by the office's clock
@@ -43,14 +43,14 @@ struct HandedIn {
 
 /// What a window shows of the office: a copy.
 struct LinkView {
-  bool reached = false;             ///< it answered last time
-  double silent_s = 0.0;            ///< since it last answered, or since the beginning
-  Message trouble;                  ///< why it does not
-  std::uint64_t hold = 0;           ///< entry by which the exam here is paused; 0: it may run
-  std::string hold_reason;          ///< why
-  std::vector<Announced> told;           ///< not read yet, the oldest first
-  std::size_t waiting = 0;          ///< recordings that are not handed in yet
-  std::vector<std::string> failed;  ///< that the office refused, by name
+  bool reached = false;                    ///< it answered last time
+  double silent_s = 0.0;                   ///< since it last answered, or since the beginning
+  Message trouble;                         ///< why it does not
+  std::uint64_t hold = 0;                  ///< entry by which the exam here is paused; 0: it may run
+  std::string hold_reason;                 ///< why
+  std::vector<ReceivedAnnouncement> told;  ///< not read yet, the oldest first
+  std::size_t waiting = 0;                 ///< recordings that are not handed in yet
+  std::vector<std::string> failed;         ///< that the office refused, by name
 };
 
 class StationLink {

@@ -146,7 +146,7 @@ Message OfficeLine::outcome_text(const std::string& recording) {
   return msg("The exam office did not take it. Tell the invigilator: {}", Authored{outcome->findings.empty() ? "" : outcome->findings.front()});
 }
 
-Message announcement_text(const office::Announced& told) {
+Message announcement_text(const office::ReceivedAnnouncement& told) {
   const auto seconds = static_cast<std::time_t>(told.utc_ns / 1'000'000'000);
   std::tm local{};
   ::localtime_r(&seconds, &local);

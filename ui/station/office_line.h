@@ -43,7 +43,7 @@ class OfficeLine {
 /// Of the sign-in screen: is the office there, and does something wait to be handed in? Empty without an office.
 [[nodiscard]] Message office_status(const StationState& state);
 /// "15:19  Ten minutes left.": with the clock time here at which it was made.
-[[nodiscard]] Message announcement_text(const office::Announced& told);
+[[nodiscard]] Message announcement_text(const office::ReceivedAnnouncement& told);
 /// What the office says, over any screen but the exam's, which shows it in its picture.
 void office_notice(const ScreenContext& c);
 /// Whether the exam goes on although the office, which does not answer, has paused it. `locked`: asks for the supervisor's code.

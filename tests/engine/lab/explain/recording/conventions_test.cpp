@@ -43,7 +43,8 @@ TEST(Conventions, CompressionThatIsNegativeIsToldWithItsOption) {
   EXPECT_EQ(proposed(r), "--negate f");
   EXPECT_THROW(static_cast<void>(require_conventions(r, "r.csv")), Error);
   const Facts as_it_is = require_conventions(r, "r.csv", true);
-  EXPECT_TRUE(as_it_is.size() == 1 && testing_basics::tells(words_of(as_it_is), "--negate f")) << "the user's word goes before ours, and is not forgotten";
+  EXPECT_TRUE(as_it_is.size() == 1 && testing_basics::tells(words_of(as_it_is), "--negate f"))
+      << "the user's word goes before ours, and is not forgotten";
 }
 
 TEST(Conventions, APositionThatGrowsOutOfTheMaterialIsToldWithItsSpeed) {

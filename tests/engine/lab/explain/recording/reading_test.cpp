@@ -93,7 +93,9 @@ TEST(Reading, AnUnknownUnitIsRefusedWithThoseThatAreKnown) {
 TEST(Reading, GramsAreTakenAsWhatTheyWeighAndSaidLoudly) {
   const Recording r = parse_recording("t_s,x_mm,load [g]\n0,0,0\n1,1,100\n", "r.csv");
   EXPECT_NEAR(r.f_n[1], 0.980665, 1e-9);
-  EXPECT_TRUE(std::any_of(r.notes.begin(), r.notes.end(), [](const Fact& n) { return n.kind() == "unit_of_mass" && testing_basics::tells(n.what(), "g"); })) << "the unit";
+  EXPECT_TRUE(std::any_of(r.notes.begin(), r.notes.end(), [](const Fact& n) {
+    return n.kind() == "unit_of_mass" && testing_basics::tells(n.what(), "g");
+  })) << "the unit";
 }
 
 TEST(Reading, AJointNeedsItsLever) {
