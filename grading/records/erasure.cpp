@@ -56,8 +56,7 @@ Erased read_erased(const std::vector<LedgerEntry>& entries, Findings& findings) 
   for (const auto& e : entries)
     for (const auto& [seq, part] : erased_parts(e)) {
       if (seq == 0 || seq >= e.seq || seq >= entries.size() || !has_part(entries[seq], part))
-        findings.push_back(
-            {FindingKind::entry_contradicts, msg("entry {}: erases what is not there: '{}' of entry {}", e.seq, word_of(part), seq), e.seq});
+        findings.push_back(finding<FindingKind::erases_void>(Term{word_of(part)}, seq).in_entry(e.seq));
       else
         out[seq].emplace(part, e.seq);
     }
