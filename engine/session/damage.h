@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/fact.h"
+#include "engine/base/fact_table.h"
 
 namespace cavum {
 
@@ -86,7 +86,7 @@ namespace cavum {
 
 CAVUM_FACTS(DamageKind, CAVUM_DAMAGES)
 
-using Damage = Fact<DamageKind>;
+using Damage = TableFact<DamageKind>;
 using Damages = std::vector<Damage>;
 /// A damage of this kind: the compiler counts its values.
 template <DamageKind kind, class... A>

@@ -52,7 +52,7 @@ void read_json(const json& from, const JsonPlace& at, Finding& f) {
   });
   read_json_value(from, at, all);
   try {
-    static_cast<Fact<FindingKind>&>(f) = decode_fact<FindingKind>(fact);
+    static_cast<TableFact<FindingKind>&>(f) = decode_fact<FindingKind>(fact);
   } catch (const std::invalid_argument& e) {
     at.refuse(msg("is no finding: {}", e.what()));
   }

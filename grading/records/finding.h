@@ -215,12 +215,12 @@ namespace cavum::records {
 
 CAVUM_FACTS(FindingKind, CAVUM_LEDGER_FINDINGS)
 
-struct Finding : Fact<FindingKind> {
+struct Finding : TableFact<FindingKind> {
   std::optional<std::uint64_t> entry = {};  ///< of the ledger that is checked, where it is about one
   std::string where = {};                   ///< the file that it is about, where that was named
 
   Finding() = default;
-  Finding(Fact<FindingKind> of) : Fact(std::move(of)) {}  // NOLINT(google-explicit-constructor)
+  Finding(TableFact<FindingKind> of) : TableFact(std::move(of)) {}  // NOLINT(google-explicit-constructor)
   Finding(const Damage& damage) : Fact{static_cast<FindingKind>(damage.kind), damage.values} {}  // NOLINT(google-explicit-constructor)
   [[nodiscard]] Finding in_entry(std::uint64_t seq) const;
   /// "receipt.json: entry 7: ..."

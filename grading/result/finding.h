@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/fact.h"
+#include "engine/base/fact_table.h"
 
 namespace cavum::grading {
 
@@ -155,7 +155,7 @@ inline constexpr Concerns k_finding_concerns[] = {
 #undef CAVUM_FINDING_CONCERNS
 };
 
-struct Finding : Fact<FindingKind> {
+struct Finding : TableFact<FindingKind> {
   [[nodiscard]] Concerns concerns() const noexcept { return k_finding_concerns[static_cast<std::size_t>(kind)]; }
   /// Leaves the verdict to an examiner.
   [[nodiscard]] bool asks_examiner() const noexcept { return concerns() == Concerns::examiner; }

@@ -1,4 +1,4 @@
-#include "engine/base/fact.h"
+#include "engine/base/fact_table.h"
 
 #include <nlohmann/json.hpp>
 #include <stdexcept>

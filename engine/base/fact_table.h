@@ -48,7 +48,7 @@ struct FactRow {
   [[nodiscard]] constexpr std::span<const FactRow> rows_of(TYPE) { return k_rows_of_##TYPE; }
 
 template <class Kind>
-struct Fact {
+struct TableFact {
   Kind kind{};
   std::vector<Value> values;  ///< as many as its row names
 
@@ -57,12 +57,12 @@ struct Fact {
   [[nodiscard]] Message message() const {
     return {row().english, nullptr, 0, {values.begin(), values.begin() + static_cast<std::ptrdiff_t>(row().gaps())}};
   }
-  friend bool operator==(const Fact&, const Fact&) = default;
+  friend bool operator==(const TableFact&, const TableFact&) = default;
 };
 
 /// A fact of this kind: the compiler counts its values.
 template <auto kind, class... A>
-[[nodiscard]] Fact<decltype(kind)> fact_of(A&&... values) {
+[[nodiscard]] TableFact<decltype(kind)> fact_of(A&&... values) {
   static_assert(sizeof...(A) == rows_of(kind)[static_cast<std::size_t>(kind)].count(), "the kind has another number of values");
   return {kind, {message_detail::value_of(std::forward<A>(values))...}};
 }
@@ -77,7 +77,7 @@ template <auto kind, class... A>
 /// Its values, and of which of `rows` it is; further members may stand beside them. Throws std::invalid_argument for another kind or other values.
 [[nodiscard]] std::pair<std::size_t, std::vector<Value>> decode_fact(const nlohmann::json& json, std::span<const FactRow> rows);
 template <class Kind>
-[[nodiscard]] Fact<Kind> decode_fact(const nlohmann::json& json) {
+[[nodiscard]] TableFact<Kind> decode_fact(const nlohmann::json& json) {
   auto [row, values] = decode_fact(json, rows_of(Kind{}));
   return {static_cast<Kind>(row), std::move(values)};
 }
