@@ -120,7 +120,7 @@ std::size_t remove_forgotten(const LedgerContent& c, Identities& identities) {
 Identities sound_identities(const Ledger& ledger) {
   Identities identities(ledger.places().identities());
   if (const auto wrong = identities.check(ledger.key()); !wrong.empty())
-    throw Error(ledger.places().identities(), wrong[0].what, msg("restore the file from its backup: marks would go to somebody else"));
+    throw Error(ledger.places().identities(), wrong[0].message(), msg("restore the file from its backup: marks would go to somebody else"));
   remove_forgotten(ledger.content(), identities);
   return identities;
 }
