@@ -9,6 +9,7 @@
 
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
+#include "engine/base/json_struct.h"
 #include "engine/base/said_by.h"
 #include "engine/base/text.h"
 #include "engine/session/session.h"
@@ -153,7 +154,7 @@ std::string signed_results(const Registry& registry, const Ledger& ledger) {
                        {"chosen", s.chosen},
                        {"makes_up", s.makes_up ? json(s.makes_up->ticket) : json()},
                        {"made_up_by", s.made_up_by ? json(*s.made_up_by) : json()},
-                       {"findings", s.findings}});
+                       {"findings", to_json_value(s.findings)}});
   const Checkpoint& p = ledger.content().checkpoints.back();
   json facts = {{"results", results},
                 {"ledger", ledger.content().id},
