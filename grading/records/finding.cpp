@@ -13,7 +13,7 @@ Finding Finding::in_entry(std::uint64_t seq) const {
 }
 
 Message Finding::message() const {
-  const Message sentence = entry ? msg("entry {}: {}", *entry, Fact::message()) : Fact::message();
+  const Message sentence = entry ? msg("entry {}: {}", *entry, TableFact::message()) : TableFact::message();
   return where.empty() ? sentence : msg("{}: {}", where, sentence);
 }
 

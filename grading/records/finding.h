@@ -221,7 +221,7 @@ struct Finding : TableFact<FindingKind> {
 
   Finding() = default;
   Finding(TableFact<FindingKind> of) : TableFact(std::move(of)) {}  // NOLINT(google-explicit-constructor)
-  Finding(const Damage& damage) : Fact{static_cast<FindingKind>(damage.kind), damage.values} {}  // NOLINT(google-explicit-constructor)
+  Finding(const Damage& damage) : TableFact{static_cast<FindingKind>(damage.kind), damage.values} {}  // NOLINT(google-explicit-constructor)
   [[nodiscard]] Finding in_entry(std::uint64_t seq) const;
   /// "receipt.json: entry 7: ..."
   [[nodiscard]] Message message() const;
