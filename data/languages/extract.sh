@@ -20,9 +20,9 @@ extract() { # OUT LANGUAGE KEYWORDS...; names of files from stdin
 git -C "$root" ls-files {engine,scenarios,grading,ui}/{'*.h','*.cpp','*.inc'} >"$new/sources"
 git -C "$root" ls-files ui/{report,office}/page/src/'*.ts' >"$new/page"
 extract "$new/sources.pot" C++ --keyword=msg:1 --keyword=msgn:1,2 --keyword=tr:1 --keyword=trn:1,2 --keyword=said:1 <"$new/sources"
-# the table of findings is a macro, which xgettext passes over
-sed -e '/^#define/d' -e 's/ \\$//' "$root/grading/result/finding.h" >"$new/findings.h"
-extract "$new/findings.pot" C++ --keyword=FINDING:3 <<<"$new/findings.h"
+# the tables of findings and damages are macros, which xgettext passes over
+sed -e '/^#define/d' -e 's/ \\$//' "$root"/grading/{result,records}/finding.h "$root/engine/session/damage.h" >"$new/findings.h"
+extract "$new/findings.pot" C++ --keyword=FINDING:3 --keyword=KIND:3 --keyword=DAMAGE:3 <<<"$new/findings.h"
 extract "$new/page.pot" JavaScript '--keyword=tr:1,"page"' '--keyword=said:1,"page"' <"$new/page"  # the comment says that the page needs it
 # titles, sentences and instructions of tasks, a line each, their gaps without names; and what criteria are called in them and in the scenarios that ship
 {

@@ -1,7 +1,6 @@
 #include "engine/session/clock_check.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 
 namespace cavum {
@@ -20,17 +19,13 @@ double seconds_between(std::int64_t from_ns, std::int64_t to_ns) {
 
 /// What the clocks say of a chunk: how far each went, and how long its ticks are.
 void remark_chunk(const ChunkRow& c, double monotonic_s, double boot_s, double utc_s, double ticks_s, std::vector<ClockRemark>& out) {
-  const auto say = [&](ClockRemark::Kind kind, const Message& what, bool doubtful) { out.push_back({kind, c.first_tick, c.ticks, what, doubtful}); };
-  if (monotonic_s < 0 || boot_s < 0) say(ClockRemark::Kind::backwards, msg("the computer's own clock ran backwards"), true);
-  if (boot_s - monotonic_s > k_suspend_s) say(ClockRemark::Kind::slept, msg("the computer slept for {}", seconds(boot_s - monotonic_s)), true);
-  if (std::fabs(utc_s - boot_s) > k_set_s)
-    say(ClockRemark::Kind::set,
-        utc_s > boot_s ? msg("the wall clock was set forward by {}", seconds(utc_s - boot_s))
-                       : msg("the wall clock was set back by {}", seconds(boot_s - utc_s)),
-        true);
-  if (monotonic_s > k_slow * ticks_s + k_slow_s)
-    say(ClockRemark::Kind::slow,
-        msg("{} of the exam took {}: the candidate had more time than the exam's clock shows", seconds(ticks_s), seconds(monotonic_s)), false);
+  const auto say = [&](Damage what, bool doubtful) { out.push_back({std::move(what), c.first_tick, c.ticks, doubtful}); };
+  const std::int64_t tick = c.first_tick;
+  if (monotonic_s < 0 || boot_s < 0) say(damage<DamageKind::clock>(tick), true);
+  if (boot_s - monotonic_s > k_suspend_s) say(damage<DamageKind::clock_slept>(tick, seconds(boot_s - monotonic_s)), true);
+  if (utc_s - boot_s > k_set_s) say(damage<DamageKind::clock_set_forward>(tick, seconds(utc_s - boot_s)), true);
+  if (boot_s - utc_s > k_set_s) say(damage<DamageKind::clock_put_back>(tick, seconds(boot_s - utc_s)), true);
+  if (monotonic_s > k_slow * ticks_s + k_slow_s) say(damage<DamageKind::clock_slow>(tick, seconds(ticks_s), seconds(monotonic_s)), false);
 }
 
 }  // namespace
@@ -44,10 +39,9 @@ std::vector<ClockRemark> check_clocks(const SessionReader& session) {
     const auto* gap = e.as<RecordingGap>();
     if (gap == nullptr) continue;
     gaps.push_back(e.tick);
-    out.push_back({ClockRemark::Kind::interrupted, e.tick, 0,
-                   !gap->by.source ? msg("interrupted for {} and taken up again", seconds(gap->utc_s()))
-                                   : msg("interrupted for {} and taken up again with {}", seconds(gap->utc_s()), in_words(*gap->by.source)),
-                   false});
+    out.push_back({!gap->by.source ? damage<DamageKind::interrupted>(e.tick, seconds(gap->utc_s()))
+                                   : damage<DamageKind::interrupted_source>(e.tick, seconds(gap->utc_s()), in_words(*gap->by.source)),
+                   e.tick});
   }
   Clocks before = session.created();
   double real_s = 0.0, told_s = 0.0, ahead_s = 0.0;  // since the beginning or the last gap
@@ -77,13 +71,8 @@ std::vector<ClockRemark> check_clocks(const SessionReader& session) {
     remark_chunk(c, monotonic_s, boot_s, utc_s, ticks_s, out);
   }
   end_stretch();
-  if (first_ahead >= 0)
-    out.push_back({ClockRemark::Kind::ahead, first_ahead, 0,
-                   msg("the exam is {} ahead of the station's clock: recorded faster than real time, no hand moved it", seconds(ahead_s)), true});
-  if (lost_s - admitted_lost_s(session) > k_lost_s)
-    out.push_back({ClockRemark::Kind::lost, 0, 0,
-                   msg("{} passed that the recording does not account for: its program stood still, or its clocks were changed", seconds(lost_s)),
-                   true});
+  if (first_ahead >= 0) out.push_back({damage<DamageKind::clock_fast>(first_ahead, seconds(ahead_s)), first_ahead, 0, true});
+  if (lost_s - admitted_lost_s(session) > k_lost_s) out.push_back({damage<DamageKind::clock_lost>(0, seconds(lost_s)), 0, 0, true});
   return out;
 }
 

@@ -3,20 +3,15 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
-#include "engine/base/message.h"
 #include "engine/session/session_reader.h"
 
 namespace cavum {
 
 /// One stretch of a recording in which the clocks disagree.
-struct ClockRemark {
-  enum class Kind : std::uint8_t { interrupted, backwards, slept, set, slow, ahead, lost };
-  Kind kind = Kind::interrupted;
+struct ClockRemark : Damage {
   std::int64_t first_tick = 0, ticks = 0;
-  Message what;           ///< with times
   bool doubtful = false;  ///< no honest exam of a hand looks so: a finding when it is filed as one
 };
 

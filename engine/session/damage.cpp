@@ -2,16 +2,16 @@
 
 #include <nlohmann/json.hpp>
 
-#include "engine/base/message_json.h"
-
 namespace cavum {
 
 std::vector<Message> words_of(const Damages& damages) {
   std::vector<Message> out;
-  for (const Damage& d : damages) out.push_back(d.what);
+  for (const Damage& d : damages) out.push_back(d.message());
   return out;
 }
 
-void to_json(nlohmann::json& json, const Damage& damage) { json = fact_json(name_in(damage.kind), damage.what); }
+void to_json(nlohmann::json& json, const Damage& damage) {
+  json = fact_json(rows_of(damage.kind), static_cast<std::size_t>(damage.kind), damage.values, damage.message());
+}
 
 }  // namespace cavum

@@ -34,7 +34,7 @@ void require_intact(const SessionReader& session) {
   if (session.closed())
     throw Error(SessionError::closed, Name{session.path()}, msg("is closed"), msg("there is nothing to resume: start a new exam"));
   const auto findings = check_chain(session);
-  if (!findings.empty()) throw Error(session.path(), findings.front().what, msg("it is evidence now: keep it, and start a new exam"));
+  if (!findings.empty()) throw Error(session.path(), findings.front().message(), msg("it is evidence now: keep it, and start a new exam"));
 }
 
 void simulate(const SessionReader& session, Simulation& simulation, const TickVisitor& visit) {

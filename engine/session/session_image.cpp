@@ -53,7 +53,7 @@ void require_session_image(const Bytes& file, const std::string& path) {
     throw Error(path, msg("is not a session file (no SQLite header)"), msg("name a .cavum file that an exam wrote, or use an intact copy"));
 }
 
-Bytes read_session_image(const std::string& path, std::vector<Message>& findings) {
+Bytes read_session_image(const std::string& path, Damages& findings) {
   check_file(path);
   Bytes file;
   std::optional<Bytes> log, journal;
@@ -70,7 +70,7 @@ Bytes read_session_image(const std::string& path, std::vector<Message>& findings
   try {
     return apply(file, log, journal);
   } catch (const DatabaseError& e) {
-    findings.push_back(msg("file: the log beside it cannot be applied, and was left out: {}", e.where_and_problem()));
+    findings.push_back(damage<DamageKind::log_left_out>(e.where_and_problem()));
     return file;
   }
 }

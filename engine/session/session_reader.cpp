@@ -35,7 +35,7 @@ void read_table(Database& database, const char* table, const std::string& column
       row(s);
     }
   } catch (const Error& e) {
-    findings.push_back({DamageKind::file, msg("table {}, row {}: {}", table, rows, e.where_and_problem())});
+    findings.push_back(damage<DamageKind::row_unreadable>(table, rows, e.where_and_problem()));
   }
 }
 
@@ -53,18 +53,17 @@ void check_schema(Database& database, Damages& findings) {
       throw Error(msg("schema"), msg("'{}' is not a table of a session of format {}", s.text(1), k_session_format), msg("use an intact copy"));
   if (i != k_session_schema.size()) throw Error(msg("schema"), msg("a table is missing"), msg("use an intact copy"));
   if (const auto v = database.integer("PRAGMA user_version"); v != k_session_format)
-    findings.push_back({DamageKind::file, msg("file: user_version is {}, this program reads format {}", v, k_session_format)});
-  if (database.integer("PRAGMA application_id") != k_session_application_id)
-    findings.push_back({DamageKind::file, msg("file: application_id is not Cavum's")});
+    findings.push_back(damage<DamageKind::user_version>(v, k_session_format));
+  if (database.integer("PRAGMA application_id") != k_session_application_id) findings.push_back(damage<DamageKind::application_id>());
 }
 
 void quick_check(Database& database, Damages& findings) {
   try {
     Statement s = database.prepare("PRAGMA quick_check(10)");
     while (s.step())
-      if (const std::string line = s.text(0); line != "ok") findings.push_back({DamageKind::file, msg("file: {}", line)});
+      if (const std::string line = s.text(0); line != "ok") findings.push_back(damage<DamageKind::database_damaged>(line));
   } catch (const DatabaseError& e) {
-    findings.push_back({DamageKind::file, msg("file: {}", e.where_and_problem())});
+    findings.push_back(damage<DamageKind::database_damaged>(e.where_and_problem()));
   }
 }
 
@@ -102,12 +101,7 @@ RemovedTicks removed_in(const ChunkRow& c, const std::string& path) {
 
 }  // namespace
 
-SessionReader::SessionReader(const std::string& path) : path_(path) {
-  std::vector<Message> left_out;
-  Bytes image = read_session_image(path, left_out);
-  for (Message& what : left_out) findings_.push_back({DamageKind::file, std::move(what)});
-  read(std::move(image));
-}
+SessionReader::SessionReader(const std::string& path) : path_(path) { read(read_session_image(path, findings_)); }
 
 SessionReader::SessionReader(Bytes file, const std::string& name) : path_(name) {
   require_session_image(file, name);
@@ -123,7 +117,7 @@ void SessionReader::read(Bytes image) {
     if (!marked)
       throw Error(SessionError::not_a_session, Name{path_}, msg("is an SQLite database, but not a Cavum session"),
                   msg("name a .cavum file that an exam wrote"));
-    findings_.push_back({DamageKind::file, msg("file: {}", e.where_and_problem())});
+    findings_.push_back(damage<DamageKind::database_damaged>(e.where_and_problem()));
     return;  // with tables of another shape, every query would be a guess
   }
   quick_check(database, findings_);
@@ -138,7 +132,7 @@ void SessionReader::read(Bytes image) {
     } catch (const DatabaseError&) {
       throw;
     } catch (const Error& e) {
-      findings_.push_back({DamageKind::event, e.message()});
+      findings_.push_back(damage<DamageKind::event_unreadable>(e.message()));
     }
   });
   read_table(database, "result", "seq, json", findings_, [&](const Statement& row) {
@@ -154,8 +148,7 @@ void SessionReader::read_artifacts(Database& database) {
     rising(row, static_cast<std::int64_t>(artifacts_.size()), "artifact");
     Artifact a{row.text(1), row.fixed_blob<32>(2), row.blob(4)};
     if (!names.insert(a.name).second) throw Error(msg("artifact"), msg("'{}' is there twice", a.name), msg("use an intact copy"));
-    if (row.integer(3) != static_cast<std::int64_t>(a.bytes.size()))
-      findings_.push_back({DamageKind::artifact, msg("table artifact, '{}': its size was changed", a.name)});
+    if (row.integer(3) != static_cast<std::int64_t>(a.bytes.size())) findings_.push_back(damage<DamageKind::artifact_size>(a.name));
     artifacts_.push_back(std::move(a));
   });
 }
@@ -184,7 +177,7 @@ void SessionReader::read_seal(Database& database) {
 }
 
 void SessionReader::require_readable() const {
-  if (!findings_.empty()) throw Error(path_, findings_.front().what, msg("use an intact copy"));
+  if (!findings_.empty()) throw Error(path_, findings_.front().message(), msg("use an intact copy"));
   if (number("physics_version", 0) != k_physics_version)
     throw Error(path_, msg("was recorded under physics {}, this program has {}", fact("physics_version"), k_physics_version),
                 msg("use the program that recorded it"));

@@ -59,12 +59,11 @@ void replay(const SessionReader& session, Simulation& simulation, const TickVisi
     try {
       motion = session.motion(i);
     } catch (const Error& e) {
-      report.findings.push_back({DamageKind::replay, msg("{} (replay stops here)", e.message())});
+      report.findings.push_back(damage<DamageKind::replay_stopped>(e.message()));
       return;
     }
     if ((leaves += motion.removed.leaves.size()) > k_max_removed_leaves) {
-      report.findings.push_back({DamageKind::replay, msg("more than {} leaves are said to be removed, and no tooth has as many (replay stops here)",
-                                                         k_max_removed_leaves)});
+      report.findings.push_back(damage<DamageKind::too_much_removed>(k_max_removed_leaves));
       return;
     }
     std::span<const RemovedLeaf> listed = motion.removed.leaves;
@@ -83,7 +82,7 @@ void replay(const SessionReader& session, Simulation& simulation, const TickVisi
     const std::uint64_t expected = report.ticks_replayed == 0 ? 0 : state_hash(simulation.state);
     if (expected == c.state_hash) continue;
     const auto last = c.first_tick + c.ticks - 1;
-    report.findings.push_back({DamageKind::state, msg("chunk {}: state hash after tick {} differs from the replay", c.seq, last)});
+    report.findings.push_back(damage<DamageKind::state_differs>(c.seq, last));
     if (!report.first_divergence) report.first_divergence = Divergence{last, "state_hash", std::to_string(c.state_hash), std::to_string(expected)};
   }
 }
@@ -91,23 +90,19 @@ void replay(const SessionReader& session, Simulation& simulation, const TickVisi
 void compare_final_tooth(const SessionReader& session, const Simulation& simulation, const VerifyTeeth& teeth, VerifyReport& report) {
   try {
     Tooth kept = load_tooth_like(session.final_tooth(), session.path() + ": final_tooth.cvt", teeth.like);
-    if (tooth_hash(kept) != tooth_hash(drilled_tooth(simulation)))
-      report.findings.push_back({DamageKind::tooth, msg("table artifact: the final tooth is not the one that the replay leaves")});
+    if (tooth_hash(kept) != tooth_hash(drilled_tooth(simulation))) report.findings.push_back(damage<DamageKind::final_tooth_differs>());
     if (teeth.final_out != nullptr) *teeth.final_out = std::move(kept);
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
-    report.findings.push_back({DamageKind::replay, said_by(e)});
+    report.findings.push_back(damage<DamageKind::final_tooth_unreadable>(said_by(e)));
   }
 }
 
 void simulate_and_compare(const SessionReader& session, const TickVisitor& visit, const VerifyTeeth& teeth, VerifyReport& report) {
   const auto recorded_physics = session.number("physics_version", 0);
   if (recorded_physics != k_physics_version) {
-    report.findings.push_back(
-        {DamageKind::physics,
-         msg("table meta: recorded under physics {}, this program has {}: chain and signature were checked, the motion cannot be replayed",
-             recorded_physics, k_physics_version)});
+    report.findings.push_back(damage<DamageKind::other_physics>(recorded_physics, k_physics_version));
     return;
   }
   const auto start = std::chrono::steady_clock::now();
@@ -120,14 +115,13 @@ void simulate_and_compare(const SessionReader& session, const TickVisitor& visit
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
-    report.findings.push_back({DamageKind::replay, msg("{} (not replayed)", said_by(e))});
+    report.findings.push_back(damage<DamageKind::not_replayed>(said_by(e)));
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (seconds > 0) report.speed_x_realtime = static_cast<double>(report.ticks_replayed) * tick_s / seconds;
   if (report.ticks_different == 0) return;
   const Divergence& d = *report.first_divergence;
-  report.findings.push_back({DamageKind::ticks, msg("tick {}: {} recorded {}, replayed {}; {} of {} ticks differ", d.tick, d.what, d.recorded,
-                                                    d.replayed, report.ticks_different, report.ticks_replayed)});
+  report.findings.push_back(damage<DamageKind::ticks_differ>(d.tick, d.what, d.recorded, d.replayed, report.ticks_different, report.ticks_replayed));
 }
 
 }  // namespace
@@ -144,19 +138,16 @@ VerifyReport verify_session(const SessionReader& session, const std::string& exp
   report.ticks = session.ticks();
   report.findings = session.findings();
   if (session.meta().empty() && session.chunks().empty()) {  // nothing could be read: the reader has said why
-    if (report.findings.empty()) report.findings.push_back({DamageKind::meta, msg("table meta: empty")});
+    if (report.findings.empty()) report.findings.push_back(damage<DamageKind::nothing_in_it>());
     return report;
   }
   for (auto& f : check_chain(session)) report.findings.push_back(std::move(f));
   if (session.seal()) report.station_key = to_hex(session.seal()->public_key);
   if (!expected_station_key.empty() && session.seal() && report.station_key != expected_station_key)
-    report.findings.push_back({DamageKind::station, msg("table seal: closed by station {}, not by the one expected", report.station_key)});
+    report.findings.push_back(damage<DamageKind::seal_station>(report.station_key));
   simulate_and_compare(session, visit, teeth, report);
   report.intact = report.findings.empty() && !report.first_divergence;
-  if (!report.closed)
-    report.findings.push_back(
-        {DamageKind::open, report.intact ? msg("table seal: none, the session was never closed; {} ticks are intact and can be resumed", report.ticks)
-                                         : msg("table seal: none, the session was never closed; {} ticks are there", report.ticks)});
+  if (!report.closed) report.findings.push_back(damage<DamageKind::not_closed>(report.ticks));
   report.verified = report.intact && report.closed;
   return report;
 }

@@ -153,8 +153,8 @@ void look_at_sessions(ClassFigures& f, const records::Registry& registry, const 
   for (const auto& s : registry.sessions) {
     if (s.scenario_id != f.exam) continue;
     if (!s.findings.empty()) {
-      const Message counts = s.chosen ? msg("was filed with findings, and counts, for a person chose it: {}", s.findings.front().what)
-                                      : msg("was filed with findings and does not count: {}", s.findings.front().what);
+      const Message counts = s.chosen ? msg("was filed with findings, and counts, for a person chose it: {}", s.findings.front().message())
+                                      : msg("was filed with findings and does not count: {}", s.findings.front().message());
       f.to_look_at.push_back({s.seq, s.candidate, s.findings.size() > 1 ? msg("{}, and {} more", counts, s.findings.size() - 1) : counts});
     }
     for (const auto other : s.contested_by)

@@ -1,11 +1,14 @@
 #include "grading/marking/school_mark.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <map>
 
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/said_by.h"
+#include "engine/base/text.h"
 #include "grading/marking/session_input.h"
 #include "grading/result/result_json.h"
 #include "scenarios/exam/exam.h"
@@ -16,6 +19,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t k_max_named = 12;  // differences: more of them say nothing new
+constexpr char k_none[] = "–";
 
 /// Tick at which the candidate, or who took the exam up, handed it in; -1 = nobody did. What the clock ends with all steps done is `completed` as
 /// well, in the last tick and not after it.
@@ -26,9 +30,10 @@ std::int64_t ended_by_hand(const SessionReader& session) {
   return -1;
 }
 
-Message event_text(const TimedEvent& e) {
-  const EventText text = encode(e.event);
-  return msg("'{} {}' at tick {}", text.kind, text.detail_json, e.tick);
+std::string event_text(const std::vector<TimedEvent>& events, std::size_t i) {
+  if (i >= events.size()) return k_none;
+  const EventText text = encode(events[i].event);
+  return fmt::format("'{} {}' ({})", text.kind, text.detail_json, events[i].tick);
 }
 
 /// Runs the scenario over the motion while that is simulated.
@@ -47,17 +52,15 @@ class ReplayedEvents {
     runner_.advance(*state_, input, output, state.removed);
     take();
   }
-  /// What differs from the recorded events, in words.
-  [[nodiscard]] std::vector<Message> differences(std::int64_t ticks) {
-    std::vector<Message> findings;
-    if (ended_ >= 0 && ended_ < ticks)
-      findings.push_back(msg("events: the exam is said to have been ended at tick {}, and it was recorded on to tick {}", ended_, ticks));
+  /// What differs from the recorded events.
+  [[nodiscard]] Damages differences(std::int64_t ticks) {
+    Damages findings;
+    if (ended_ >= 0 && ended_ < ticks) findings.push_back(damage<DamageKind::ended_before_end>(ended_, ticks));
     if (ended_ == ticks) runner_.end(*state_);
     take();
     for (std::size_t i = 0; i < std::max(recorded_.size(), again_.size()) && findings.size() < k_max_named; ++i) {
       if (i < recorded_.size() && i < again_.size() && recorded_[i] == again_[i]) continue;
-      findings.push_back(msg("event {} of the exam: recorded {}, the motion gives {}", i,
-                             i < recorded_.size() ? event_text(recorded_[i]) : msg("none"), i < again_.size() ? event_text(again_[i]) : msg("none")));
+      findings.push_back(damage<DamageKind::event_differs>(i, event_text(recorded_, i), event_text(again_, i)));
     }
     return findings;
   }
@@ -87,10 +90,10 @@ class ReplayedEvents {
   std::int64_t ended_;
 };
 
-Message in_words(const json& value) {
-  if (value.is_null()) return msg("none");
-  if (value.is_number()) return msg("{}", as_number(value.get<double>()));
-  return Name{value.is_string() ? value.get<std::string>() : value.dump()};
+std::string short_text(const json& value) {
+  constexpr std::size_t k_longest = 60;
+  const std::string text = value.is_null() ? k_none : value.is_string() ? value.get<std::string>() : value.dump();
+  return text.substr(0, whole_characters(text.substr(0, k_longest)));
 }
 
 /// With the criteria by their ids, not by their places.
@@ -104,24 +107,23 @@ json by_id(json result) {
 
 }  // namespace
 
-std::vector<Message> result_differences(const json& sealed, const json& marked) {
+std::string result_differences(const json& sealed, const json& marked) {
   const json was = by_id(sealed), is = by_id(marked);
   json steps = json::diff(was, is);
   std::stable_partition(steps.begin(), steps.end(), [](const json& s) { return !s["path"].get_ref<const std::string&>().starts_with("/criteria"); });
-  std::vector<Message> out;
-  for (const json& step : steps) {
-    const std::string path = step.at("path"), op = step.at("op");
-    const json::json_pointer place(path);
-    out.push_back(msg("{}: {}, marked {}", path, op == "add" ? msg("missing") : in_words(was.at(place)),
-                      op == "remove" ? msg("none") : in_words(step.at("value"))));
+  std::string out;
+  for (std::size_t i = 0; i < std::min(steps.size(), k_max_named); ++i) {
+    const std::string path = steps[i].at("path"), op = steps[i].at("op");
+    const json none;
+    out += fmt::format("{}{}: {} → {}", i == 0 ? "" : "; ", path, short_text(op == "add" ? none : was.at(json::json_pointer(path))),
+                       short_text(op == "remove" ? none : steps[i].at("value")));
   }
-  return out;
+  return steps.size() > k_max_named ? out + "; …" : out;
 }
 
-std::vector<Message> SchoolMark::findings() const {
-  std::vector<Message> all = words_of(replay.findings);
+Damages SchoolMark::findings() const {
+  Damages all = replay.findings;
   all.insert(all.end(), exam.begin(), exam.end());
-  if (!other_result.empty()) all.push_back(other_result);
   return all;
 }
 
@@ -133,7 +135,7 @@ SchoolMark mark_again(const SessionReader& session, ExamContexts& grounds) {
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
-    out.exam.push_back(msg("scenario: {}", said_by(e)));
+    out.exam.push_back(damage<DamageKind::scenario_unreadable>(said_by(e)));
   }
   Tooth final_tooth;
   const auto see = [&](std::int64_t tick, const TickInput& input, const TickOutput& output, const ServoState& state) {
@@ -141,7 +143,7 @@ SchoolMark mark_again(const SessionReader& session, ExamContexts& grounds) {
   };
   out.replay = verify_session(session, "", events ? TickVisitor(see) : TickVisitor{}, events ? events->teeth(final_tooth) : VerifyTeeth{});
   if (events)
-    for (auto& f : events->servo_findings()) out.exam.push_back(std::move(f));
+    for (const Message& why : events->servo_findings()) out.exam.push_back(damage<DamageKind::exam_differs>(why));
   // Whole and repeated to the last tick: only such a motion is marked, damaged or forged facts beside it or not.
   const bool repeated =
       out.replay.closed && out.replay.ticks_replayed == out.replay.ticks && out.replay.ticks_different == 0 && !out.replay.first_divergence && events;
@@ -154,22 +156,14 @@ SchoolMark mark_again(const SessionReader& session, ExamContexts& grounds) {
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
-    out.exam.push_back(msg("cannot be marked: {}", said_by(e)));
+    out.exam.push_back(damage<DamageKind::not_markable>(said_by(e)));
     return out;
   }
   const json sealed = parse_json_or_null(session.result_json(), k_json_part);
-  auto differ = result_differences(sealed, out.result);
+  const std::string differ = result_differences(sealed, out.result);
   if (differ.empty()) return out;
   out.sealed_otherwise = sealed;
-  List all{differ, true};
-  if (differ.size() > k_max_named) {
-    all.items.resize(k_max_named);
-    all.items.push_back(msg("{} more", differ.size() - k_max_named));
-  }
-  out.other_result = msg(
-      "the sealed result, by grading version {}, is not what this program's version {} gives: it was tampered with, or its station's program was, "
-      "or is another one. Sealed {}",
-      whole_in(sealed, "grading_version"), k_grading_version, all);
+  out.exam.push_back(damage<DamageKind::result_differs>(whole_in(sealed, "grading_version"), k_grading_version, differ));
   return out;
 }
 

@@ -15,19 +15,19 @@ namespace cavum::grading {
 struct SchoolMark {
   VerifyReport replay;              ///< the file, its chain and signature, and the motion
   nlohmann::json result;            ///< this program's mark, as to_json gives it; null when the recording cannot be marked
-  std::vector<Message> exam;        ///< what of scenario, servo and events does not hold, or why it cannot be marked
-  Message other_result;             ///< in what the sealed result is another; empty: in nothing
+  Damages exam;                     ///< what of scenario, servo, events and sealed result does not hold, or why it cannot be marked
   nlohmann::json sealed_otherwise;  ///< the sealed result where it is not `result`; else null
-  [[nodiscard]] bool holds() const { return replay.verified && exam.empty() && other_result.empty(); }
+  [[nodiscard]] bool holds() const { return replay.verified && exam.empty(); }
   /// The replay's, then these.
-  [[nodiscard]] std::vector<Message> findings() const;
+  [[nodiscard]] Damages findings() const;
 };
 
 /// Simulates, runs and marks a closed session again. A sealed result that differs is a finding. What cannot be replayed (another physics version) is
 /// not marked. Throws nothing of the recording's own: its damage is in the findings.
 [[nodiscard]] SchoolMark mark_again(const SessionReader& session, ExamContexts& grounds);
 
-/// In what two results differ, most important first: verdict, points, each criterion, then further figures by name. Empty when they are the same.
-[[nodiscard]] std::vector<Message> result_differences(const nlohmann::json& sealed, const nlohmann::json& marked);
+/// In what two results differ, most important first: verdict, points, each criterion, then further figures by name: "/verdict: pass → fail; …".
+/// Empty when they are the same.
+[[nodiscard]] std::string result_differences(const nlohmann::json& sealed, const nlohmann::json& marked);
 
 }  // namespace cavum::grading

@@ -57,7 +57,7 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Exa
                 msg("close it as it stands with `cavum exam --resume --end --out {}`, or let it go on with --motion or --operator", path));
   // marks are given on evidence only: what the chain or the signature does not cover any more is not graded
   if (const auto findings = check_chain(reader); !findings.empty())
-    throw Error(path, msg("damaged or altered: {}", findings.front().what), msg("run `cavum replay --verify` on it and use an intact copy"));
+    throw Error(path, msg("damaged or altered: {}", findings.front().message()), msg("run `cavum replay --verify` on it and use an intact copy"));
   return load_with(reader, grounds,
                    [&](const ExamContext& ground) { return load_tooth_like(reader.final_tooth(), path + ": final tooth", ground.fits.get()); });
 }

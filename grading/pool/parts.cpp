@@ -59,7 +59,7 @@ std::optional<Row> read_row(std::string_view text, const std::string& work_id, s
 std::string sha256_now(const Work& work, std::size_t index) {
   const std::string& name = work.sessions[index];
   try {
-    std::vector<Message> ignored;
+    Damages ignored;
     return to_hex(sha256(read_session_image(work.folder.empty() ? name : work.folder + "/" + name, ignored)));
   } catch (const Error&) {
     return {};

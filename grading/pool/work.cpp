@@ -27,14 +27,8 @@ constexpr JsonLimits k_work_limits{1U << 30, 20'000'000, 8};
 
 std::string dumped(const json& j) { return j.dump(-1, ' ', false, json::error_handler_t::replace); }
 
-json on_lines(const std::vector<Message>& texts) {
-  json list = json::array();
-  for (const auto& t : texts) list.push_back(one_line(english_text(t)));
-  return list;
-}
-
 /// An error speaks of the file without its folder, which is another one on each machine.
-Bytes image_below(const std::string& folder, const std::string& name, std::vector<Message>& findings) {
+Bytes image_below(const std::string& folder, const std::string& name, Damages& findings) {
   try {
     return read_session_image(folder.empty() ? name : folder + "/" + name, findings);
   } catch (const Error& e) {
@@ -105,10 +99,10 @@ std::string line_of(const Work& work, std::size_t index, grading::ExamContexts& 
   json line{{"session", name}};
   const auto failed = [&line](const Message& error) {
     line["error"] = one_line(english_text(error));
-    line["said"] = encode(std::vector<Message>{error});
+    line["said"] = encode(error);
   };
   try {
-    std::vector<Message> findings;
+    Damages findings;
     const Bytes image = image_below(work.folder, name, findings);
     line["sha256"] = to_hex(sha256(image));
     const SessionReader session(image, name);
@@ -117,8 +111,7 @@ std::string line_of(const Work& work, std::size_t index, grading::ExamContexts& 
       for (auto& f : mark.findings()) findings.push_back(std::move(f));
       line["verified"] = mark.holds() && findings.empty();
       line["ticks"] = mark.replay.ticks;
-      line["findings"] = on_lines(findings);
-      if (!findings.empty()) line["said"] = encode(findings);  // for whoever tells them in another language
+      line["findings"] = findings;
       line["result"] = mark.result;
     } else {
       line["result"] = marked(work, session, grounds);
@@ -134,9 +127,12 @@ std::string line_of(const Work& work, std::size_t index, grading::ExamContexts& 
   return dumped(line);
 }
 
-std::vector<Message> said_in(const json& line) {
-  const json& said = member_of(line, "said");
-  return said.is_null() ? std::vector<Message>() : decode_messages(said);
+Message error_in(const json& line) { return line.contains("error") ? decode_message(member_of(line, "said")) : Message(); }
+
+Damages findings_in(const json& line) {
+  Damages all;
+  for (const json& f : member_of(line, "findings")) all.push_back(decode_fact<DamageKind>(f));
+  return all;
 }
 
 }  // namespace cavum::pool

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/session/damage.h"
 #include "grading/marking/exam_context.h"
 #include "scenarios/file/surface_files.h"
 
@@ -36,7 +37,8 @@ struct Work {
 
 /// One line of JSON without its end: `session` (name), `sha256` (of the file), and what comes of it, or `error`. Throws std::bad_alloc only.
 [[nodiscard]] std::string line_of(const Work& work, std::size_t index, grading::ExamContexts& grounds);
-/// The findings or the error of such a line, to be told in any language. Throws std::invalid_argument where it was written by something else.
-[[nodiscard]] std::vector<Message> said_in(const nlohmann::json& line);
+// Of such a line, to be told in any language. Each throws std::invalid_argument where it was written by something else.
+[[nodiscard]] Message error_in(const nlohmann::json& line);
+[[nodiscard]] Damages findings_in(const nlohmann::json& line);
 
 }  // namespace cavum::pool

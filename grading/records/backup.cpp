@@ -41,7 +41,7 @@ void copy_database(const std::string& from, const std::string& to) {
       source.copy_to(copy);
     } catch (const DatabaseError& e) {
       if (e.refusal().fault == DiskFault::full || e.refusal().fault == DiskFault::input_output) throw;
-      std::vector<Message> findings;  // a folder that may only be read
+      Damages findings;  // a folder that may only be read
       Database source = Database::from_image(read_session_image(from, findings), from);
       source.copy_to(copy);
     }
@@ -118,7 +118,7 @@ void require_place_for(const LedgerContent& content, const std::string& folder) 
   Findings findings;
   if (!before.checkpoints.empty()) check_history(content, before.id, before.checkpoints.back(), msg("the backup that is there"), findings);
   if (before.checkpoints.empty() || !findings.empty())
-    throw Error(folder, findings.empty() ? msg("holds a backup that cannot be read") : findings[0].what, msg("keep it, and name a new folder"));
+    throw Error(folder, findings.empty() ? msg("holds a backup that cannot be read") : findings[0].message(), msg("keep it, and name a new folder"));
 }
 
 /// Adds what a checkpoint from outside tells of the backup.
@@ -146,12 +146,11 @@ void check_own_checkpoint(RestorePlan& plan, const History& history, const std::
     const std::string key_then = c.key_of(checkpoint_in(told, c.id, c.public_key, path).size);
     const Checkpoint p = checkpoint_in(told, c.id, key_then, path);
     if (!is_signed_by_school(c.id, key_then, p))
-      plan.findings.push_back({FindingKind::signature_invalid, msg("{}: the school's signature on the backup's checkpoint does not hold", path)});
+      plan.findings.push_back(finding<FindingKind::backup_signature>());
     else if (p.size == 0 || p.size > history.roots().size() || history.roots()[static_cast<std::size_t>(p.size) - 1] != p.root)
-      plan.findings.push_back(
-          {FindingKind::tree_differs, msg("the backup was taken of {} entries, and holds {}: it was changed since", p.size, own.size)});
+      plan.findings.push_back(finding<FindingKind::backup_changed>(p.size, own.size));
   } catch (const Error& e) {
-    plan.findings.push_back({FindingKind::malformed, e.where_and_problem()});
+    plan.findings.push_back(finding<FindingKind::malformed>(e.where_and_problem()));
   }
 }
 
@@ -165,7 +164,7 @@ Backup back_up(const LedgerPlaces& from, const std::string& folder, bool with_id
     throw Error(folder, msg("is the ledger itself"), msg("name another folder"));
   const LedgerContent now = read_ledger(from);
   if (!now.findings.empty())
-    throw Error(from.folder, msg("the ledger does not hold ({}), and a backup of it would be taken for one that does", now.findings[0].what),
+    throw Error(from.folder, msg("the ledger does not hold ({}), and a backup of it would be taken for one that does", now.findings[0].message()),
                 msg("see `cavum ledger verify`; to keep it as evidence, copy the folder"));
   make_private_folder(folder);
   const FolderLock lock(folder, msg("cannot be kept to this backup alone"), msg("name another folder"));
@@ -176,7 +175,7 @@ Backup back_up(const LedgerPlaces& from, const std::string& folder, bool with_id
     copy_database(from.database(), to.database());
     copy = read_ledger(to, AskWitness::no);
     if (!copy.findings.empty())
-      throw Error(to.database(), msg("the copy does not hold ({})", copy.findings[0].what), msg("check the disk, and take it again"));
+      throw Error(to.database(), msg("the copy does not hold ({})", copy.findings[0].message()), msg("check the disk, and take it again"));
     out.missing = copy_sessions(copy, from, to, out.copied);
     const auto gone = out.missing.empty() ? std::set<std::string>() : erased_recordings(read_ledger(from));
     erased_meanwhile = std::any_of(out.missing.begin(), out.missing.end(), [&](const std::string& hash) { return gone.contains(hash); });
@@ -212,7 +211,7 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
   Findings changed;
   for (const auto& w : read_witness(c.id, changed)) {
     if (!is_signed_by_school(c.id, c.key_of(w.size), w))
-      changed.push_back({FindingKind::witness_changed, msg("{}: the witness was changed at entry {}", witness_path(c.id), w.size)});
+      changed.push_back(finding<FindingKind::witness_changed>(witness_path(c.id), w.size));
     else
       compare(plan, history, c.id, w, msg("the witness"), {});
   }
@@ -221,7 +220,7 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
     const json receipt = parse_json_or_null(read_text_file(path));
     const std::string signer = text_in(receipt, "public_key");
     if (const auto wrong = check_receipt(receipt, c.has_key(signer) ? signer : c.public_key, nullptr); !wrong.empty())
-      throw Error(path, wrong[0].what, msg("use an intact copy"));
+      throw Error(path, wrong[0].message(), msg("use an intact copy"));
     const std::string id = receipt.at("ledger"), text = receipt.at("entry");
     const LedgerEntry entry = read_entry_or_none(text);
     const auto* session = entry.as<SessionEntry>();
@@ -250,7 +249,7 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
 }
 
 void restore(const std::string& backup, const std::string& folder, const RestorePlan& plan, const std::string& reason, const SigningKey& key) {
-  if (!plan.findings.empty()) throw Error(backup, plan.findings[0].what, msg("restore another backup"));
+  if (!plan.findings.empty()) throw Error(backup, plan.findings[0].message(), msg("restore another backup"));
   if (plan.last_seen && (reason.empty() || reason.size() > k_longest_acceptance || !is_plain_text(reason)))
     throw Error("--accept-loss", msg("gives no reason"),
                 msg("say in one line of UTF-8, 1000 bytes at most, why the school accepts the loss; it is kept for ever, so no names"));

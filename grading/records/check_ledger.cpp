@@ -28,33 +28,25 @@ namespace {
 using nlohmann::json;
 
 /// What simulating and marking a filed session again gave: it must hold, and be marked as it was.
-void compare_with_line(const FiledSession& s, const std::string& line, const Message& name, LedgerCheck& out) {
+void compare_with_line(const FiledSession& s, const std::string& line, LedgerCheck& out) {
   const json again = parse_json_or_null(line, k_json_part);
   if (line.empty() || !again.is_object()) {
-    out.not_made.push_back({FindingKind::not_simulated, msg("{}: could not be simulated again; run the same command once more", name), s.seq});
+    out.not_made.push_back(finding<FindingKind::not_simulated>().in_entry(s.seq));
     return;
   }
-  const std::vector<Message> said = pool::said_in(again);
-  if (again.contains("error")) {
-    out.findings.push_back({FindingKind::file_unreadable, msg("{}: its file cannot be read: {}", name, List{said, true}), s.seq});
+  if (const Message error = pool::error_in(again); !error.empty()) {
+    out.findings.push_back(finding<FindingKind::file_unreadable>(error).in_entry(s.seq));
     return;
   }
-  if (text_in(again, "sha256") != s.file_sha256)
-    out.findings.push_back({FindingKind::file_changed, msg("{}: its file was changed while it was checked, or a log lies beside it", name), s.seq});
-  for (const Message& f : said) out.findings.push_back({FindingKind::recording_unsound, msg("{}: {}", name, f), s.seq});
+  if (text_in(again, "sha256") != s.file_sha256) out.findings.push_back(finding<FindingKind::file_changed_meanwhile>().in_entry(s.seq));
+  for (const Damage& d : pool::findings_in(again)) out.findings.push_back(Finding(d).in_entry(s.seq));
   const json& result = member_of(again, "result");
-  const auto differ = s.filed->is_object() && result.is_object() ? grading::result_differences(*s.filed, result) : std::vector<Message>();
+  const auto differ = s.filed->is_object() && result.is_object() ? grading::result_differences(*s.filed, result) : "";
   if (differ.empty()) return;
-  List told{{differ[0]}, true};
-  if (differ.size() > 1) told.items.push_back(msg("{} more", differ.size() - 1));
   if (s.grading_version == grading::k_grading_version)
-    out.findings.push_back(
-        {FindingKind::result_differs, msg("{}: the result that was filed is not what marking it gives: filed {}", name, told), s.seq});
+    out.findings.push_back(finding<FindingKind::filed_result_differs>(differ).in_entry(s.seq));
   else
-    out.remarks.push_back({FindingKind::result_differs,
-                           msg("{}: was marked by grading version {}; version {} gives another result: filed {}", name, s.grading_version,
-                               grading::k_grading_version, told),
-                           s.seq});
+    out.remarks.push_back(finding<FindingKind::version_differs>(s.grading_version, grading::k_grading_version, differ).in_entry(s.seq));
 }
 
 /// An entry made while the computer's clock was ahead is named as soon as that is put right.
@@ -62,48 +54,34 @@ void check_times(const LedgerContent& content, Findings& remarks) {
   constexpr std::int64_t k_patience_ns = 300'000'000'000;
   const std::int64_t now_ns = read_clocks().utc_ns;
   for (const auto& e : content.entries)
-    if (e.utc_ns > now_ns + k_patience_ns)
-      remarks.push_back(
-          {FindingKind::clock_ahead,
-           msg("entry {}: bears a time that has not come yet, {}; the clock was ahead then, or is behind now", e.seq, utc_text(e.utc_ns)), e.seq});
+    if (e.utc_ns > now_ns + k_patience_ns) remarks.push_back(finding<FindingKind::clock_ahead>(utc_text(e.utc_ns)).in_entry(e.seq));
 }
 
 /// What can never be shown of this ledger here, and why.
 void say_not_checked(const LedgerContent& content, const Registry& registry, bool replay, LedgerCheck& out) {
   if (content.id.empty())
-    out.not_checked.push_back({FindingKind::older_copy, msg("whether an older copy was put back, and which of the filed sessions belong to it: the "
-                                                            "ledger's id could not be read, so nothing could be "
-                                                            "compared")});
+    out.not_checked.push_back(finding<FindingKind::older_unread>());
   else if (!content.witnessed)
-    out.not_checked.push_back({FindingKind::older_copy, msg("whether an older copy was put back: this computer has no witness of the ledger")});
-  if (!replay && !registry.sessions.empty())
-    out.not_checked.push_back(
-        {FindingKind::not_simulated,
-         msg("whether the filed sessions' motion gives their forces, teeth, events and marks again: --replay simulates and marks each")});
+    out.not_checked.push_back(finding<FindingKind::older_no_witness>());
+  if (!replay && !registry.sessions.empty()) out.not_checked.push_back(finding<FindingKind::not_simulated_unasked>());
 }
-
-Message name_of(const FiledSession& s) { return msg("entry {} (session of {})", s.seq, s.candidate); }
 
 enum class Recording { there, changed, erased };
 
 /// One filed recording: there and unchanged, or erased as an entry says. `gone`: hashes of the recordings that nothing needs any more.
 Recording check_recording(const FiledSession& s, const LedgerPlaces& places, const std::set<std::string>& gone, LedgerCheck& out) {
-  const Message name = name_of(s);
   const std::string path = places.session(s.file_sha256);
   if (s.motion_erased_by) {
     if (std::filesystem::exists(path) && gone.contains(s.file_sha256))
-      out.findings.push_back({FindingKind::erased_still_there,
-                              msg("{}: its recording is erased by entry {}, and is still there: {}; `cavum ledger erase` without more removes it",
-                                  name, *s.motion_erased_by, path),
-                              s.seq});
+      out.findings.push_back(finding<FindingKind::erased_still_there>(*s.motion_erased_by, path).in_entry(s.seq));
     return Recording::erased;
   }
   if (!std::filesystem::exists(path)) {
     if (erased_by(read_ledger(places).erased, s.seq, Part::motion)) return Recording::erased;  // meanwhile
-    out.findings.push_back({FindingKind::file_gone, msg("{}: its file is gone: {}", name, path), s.seq});
+    out.findings.push_back(finding<FindingKind::file_gone>(path).in_entry(s.seq));
     return Recording::changed;
   } else if (to_hex(sha256(read_file(path))) != s.file_sha256) {
-    out.findings.push_back({FindingKind::file_changed, msg("{}: its file was changed: {}", name, path), s.seq});
+    out.findings.push_back(finding<FindingKind::file_changed>(path).in_entry(s.seq));
     return Recording::changed;
   }
   return Recording::there;
@@ -133,34 +111,25 @@ void check_recordings(const LedgerPlaces& places, const LedgerContent& content, 
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& e) {
-      out.findings.push_back({FindingKind::file_unreadable, msg("{}: its file cannot be read: {}", name_of(s), said_by(e)), s.seq});
+      out.findings.push_back(finding<FindingKind::file_unreadable>(said_by(e)).in_entry(s.seq));
     }
     filed_with_findings += s.findings.empty() ? 0 : 1;
     for (const auto other : s.contested_by)
       if (other > s.seq)
-        out.remarks.push_back(
-            {FindingKind::contested,
-             s.doubtful() && registry.chosen_instead_of(s) == nullptr
-                 ? msg("{}: is contested by entry {}, another ending of the same exam: a person decides which counts", name_of(s), other)
-                 : msg("{}: is contested by entry {}, another ending of the same exam: a person has chosen which counts", name_of(s), other),
-             s.seq});
+        out.remarks.push_back((s.doubtful() && registry.chosen_instead_of(s) == nullptr ? finding<FindingKind::contested_open>(other)
+                                                                                        : finding<FindingKind::contested>(other))
+                                  .in_entry(s.seq));
   }
   const pool::Work work = work_on(places, registry, pool::What::verify);
   if (by && !work.sessions.empty()) {
     const pool::Made made = by(work);
     for (const FiledSession* s : replayed) {
       const auto at = std::lower_bound(work.sessions.begin(), work.sessions.end(), fmt::format("sessions/{}.cavum", s->file_sha256));
-      compare_with_line(*s, made.lines[static_cast<std::size_t>(at - work.sessions.begin())], name_of(*s), out);
+      compare_with_line(*s, made.lines[static_cast<std::size_t>(at - work.sessions.begin())], out);
     }
   }
-  if (by && filed_with_findings > 0)
-    out.not_checked.push_back(
-        {FindingKind::not_simulated, msg("{} sessions that were filed with findings are not simulated again", filed_with_findings)});
-  if (erased > 0)
-    out.not_checked.push_back(
-        {FindingKind::not_simulated, msgn("{} recording was erased, as entries say: whether motion gives its mark can no longer be shown",
-                                          "{} recordings were erased, as entries say: whether motion gives their marks can no longer be shown",
-                                          static_cast<std::int64_t>(erased), erased)});
+  if (by && filed_with_findings > 0) out.not_checked.push_back(finding<FindingKind::not_simulated_unsound>(filed_with_findings));
+  if (erased > 0) out.not_checked.push_back(finding<FindingKind::not_simulated_erased>(erased));
 }
 
 /// Files that no entry knows.
@@ -169,8 +138,7 @@ void say_strangers(const LedgerPlaces& places, const Registry& registry, LedgerC
   for (const auto& s : registry.sessions) filed.insert(s.file_sha256 + ".cavum");
   std::error_code none;
   for (const auto& f : std::filesystem::directory_iterator(places.folder + "/sessions", none))
-    if (!filed.contains(f.path().filename().string()))
-      out.remarks.push_back({FindingKind::foreign, msg("{}: belongs to no entry", f.path().string())});
+    if (!filed.contains(f.path().filename().string())) out.remarks.push_back(finding<FindingKind::foreign>(f.path().string()));
 }
 
 /// Who has a ticket and is no longer among the identities, though no entry says that he was forgotten.
@@ -181,12 +149,7 @@ void say_missing(const LedgerPlaces& places, const LedgerContent& content, Ident
   if (missing.empty()) return;
   for (const auto& e : read_ledger(places).entries)  // again: somebody may be forgotten meanwhile
     if (const auto* forgotten = e.as<ForgetEntry>()) missing.erase(forgotten->candidate);
-  for (const auto& [who, seq] : missing)
-    out.findings.push_back(
-        {FindingKind::identity_missing,
-         msg("identities: {}, who has the ticket of entry {}, is missing, and no entry says that he was forgotten; restore the file from its backup",
-             who, seq),
-         seq});
+  for (const auto& [who, seq] : missing) out.findings.push_back(finding<FindingKind::identity_missing>(who, seq));
 }
 
 }  // namespace
@@ -205,7 +168,7 @@ LedgerCheck check_ledger(const LedgerPlaces& places, const pool::Maker& by) {
   check_times(content, out.remarks);
   const Registry registry = read_registry(content);
   append(out.findings, registry.findings);
-  for (const auto& r : restores_of(content)) out.remarks.push_back({FindingKind::restored, in_words(r), r.seq});
+  for (const auto& r : restores_of(content)) out.remarks.push_back(finding_of(r));
   append(out.remarks, registry.remarks);
   say_not_checked(content, registry, static_cast<bool>(by), out);
   check_recordings(places, content, registry, by, out);
@@ -217,14 +180,9 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
                  const std::string& public_key_path) {
   const bool unread = content.public_key.empty();
   bool known = false;
-  if (std::filesystem::exists(next_key_path(key_path)))
-    check.findings.push_back({FindingKind::key_half_replaced,
-                              msg("replacing the school's key was cut off: {} is still there; `cavum ledger key LEDGER --replace` goes on with it",
-                                  next_key_path(key_path))});
+  if (std::filesystem::exists(next_key_path(key_path))) check.findings.push_back(finding<FindingKind::key_half_replaced>(next_key_path(key_path)));
   const auto must_be_ours = [&](const std::string& key, const std::string& path) {
-    if (!unread && key != content.public_key)
-      check.findings.push_back({FindingKind::other_school,
-                                msg("the ledger is of another school than {} names: signed by {}, expected {}", path, content.public_key, key)});
+    if (!unread && key != content.public_key) check.findings.push_back(finding<FindingKind::other_school>(path, content.public_key, key));
   };
   if (std::filesystem::exists(public_key_path)) {
     known = true;
@@ -233,9 +191,7 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
       while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
       must_be_ours(parse_public_key(text, public_key_path), public_key_path);
     } catch (const Error&) {
-      check.findings.push_back(
-          {FindingKind::key_unreadable,
-           msg("{}: is no school's public key, 64 hexadecimal digits; copy it again from the school's computer", public_key_path)});
+      check.findings.push_back(finding<FindingKind::key_unreadable>(public_key_path));
     }
   }
   std::optional<SigningKey> key;
@@ -245,41 +201,28 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
       key = load_school_key(key_path);
       must_be_ours(to_hex(key->public_key), key_path);
     } catch (const Error& e) {
-      check.not_checked.push_back({FindingKind::key_unreadable, msg("the school's key cannot be used: {}", e.message())});
+      check.not_checked.push_back(finding<FindingKind::key_unusable>(e.message()));
     }
   }
   if (unread) {
-    check.not_checked.push_back({FindingKind::other_school, msg("whether the ledger is this school's, and whether names were exchanged among the "
-                                                                "identities, or taken out: the ledger's id and key could "
-                                                                "not be read, so nothing could be compared")});
+    check.not_checked.push_back(finding<FindingKind::school_unread>());
     return;
   }
-  if (!known)
-    check.not_checked.push_back({FindingKind::other_school,
-                                 msg("whether the ledger is this school's: neither {} nor {} is here to compare with", key_path, public_key_path)});
+  if (!known) check.not_checked.push_back(finding<FindingKind::school_not_named>(key_path, public_key_path));
   if (!std::filesystem::exists(places.identities())) {
-    check.not_checked.push_back(
-        {FindingKind::identities_changed,
-         msg("whether names were exchanged among the identities, or taken out: {} is not there; restore it from its backup if this is the school's "
-             "own copy",
-             places.identities())});
+    check.not_checked.push_back(finding<FindingKind::identities_not_there>(places.identities()));
   } else if (!key || to_hex(key->public_key) != content.public_key) {
-    check.not_checked.push_back(
-        {FindingKind::identities_changed,
-         msg("whether names were exchanged among the identities, or taken out: the key that made the pseudonyms is not here")});
+    check.not_checked.push_back(finding<FindingKind::identities_key_missing>());
   } else {
     try {
       Identities identities(places.identities());
       append(check.findings, identities.check(*key));
       for (const auto& e : content.entries)
         if (const auto* forgotten = e.as<ForgetEntry>(); forgotten != nullptr && identities.of_pseudonym(forgotten->candidate))
-          check.findings.push_back({FindingKind::erased_still_there,
-                                    msg("identities: {} was forgotten by entry {}, and is still named; `cavum ledger erase` without more removes it",
-                                        forgotten->candidate, e.seq),
-                                    e.seq});
+          check.findings.push_back(finding<FindingKind::forgotten_still_named>(forgotten->candidate, e.seq));
       say_missing(places, content, identities, check);
     } catch (const Error& e) {
-      check.findings.push_back({FindingKind::file_unreadable, e.message()});
+      check.findings.push_back(finding<FindingKind::read_failed>(e.message()));
     }
   }
 }

@@ -27,6 +27,11 @@ std::string ticket_text_in(const SessionSetup& setup) {
   return {};
 }
 
+/// "device falcon"
+std::string name_of(const MotionSource& source) {
+  return fmt::format("{}{}{}", source.kind == SourceKind::unnamed ? "unnamed" : text_of(source.kind), source.name.empty() ? "" : " ", source.name);
+}
+
 constexpr std::int64_t k_patience_ns = 300'000'000'000;    // by which the clocks of station and ledger may differ
 constexpr std::int64_t k_hand_in_ns = 86'400'000'000'000;  // within which a finished exam reaches the ledger
 
@@ -35,28 +40,20 @@ Findings check_course(const SessionReader& session, const SessionSetup& setup, c
                       std::int64_t received_utc_ns) {
   Findings findings;
   const std::int64_t begun = session.created().utc_ns, closed = session.seal()->clocks.utc_ns;
-  if (closed > received_utc_ns + k_patience_ns)
-    findings.push_back({FindingKind::clock, msg("by the station's clock the exam ended on {}, after it was handed in", utc_text(closed))});
-  if (closed < begun) findings.push_back({FindingKind::clock, msg("by the station's clock the exam ended on {}, before it began", utc_text(closed))});
-  if (ticket && begun < issued_utc_ns - k_patience_ns)
-    findings.push_back({FindingKind::clock, msg("by the station's clock the exam began on {}, before its ticket was issued", utc_text(begun))});
+  if (closed > received_utc_ns + k_patience_ns) findings.push_back(finding<FindingKind::ended_after_filing>(utc_text(closed)));
+  if (closed < begun) findings.push_back(finding<FindingKind::ended_before_begin>(utc_text(closed)));
+  if (ticket && begun < issued_utc_ns - k_patience_ns) findings.push_back(finding<FindingKind::begun_before_issue>(utc_text(begun)));
   // A clock that was set back puts an exam into its window; that it reaches the ledger late is what is left to see.
   if (ticket && received_utc_ns > std::max(closed, ticket->ticket.not_after_utc_ns) + k_hand_in_ns)
-    findings.push_back(
-        {FindingKind::handed_in_late,
-         msg("it was handed in on {}, more than a day after its ticket's time and after it ended by the station's clock ({}): nothing but that clock "
-             "shows when it was sat",
-             utc_text(received_utc_ns), utc_text(closed))});
+    findings.push_back(finding<FindingKind::handed_in_late>(utc_text(received_utc_ns), utc_text(closed)));
   for (const auto& e : session.event_rows()) {
     const auto* gap = e.as<RecordingGap>();
     if (gap == nullptr) continue;
     if (ticket && gap->resumed_utc_ns > ticket->ticket.not_after_utc_ns)
-      findings.push_back(
-          {FindingKind::ticket_time, msg("the exam was taken up again on {}, when its ticket was no longer good", utc_text(gap->resumed_utc_ns))});
+      findings.push_back(finding<FindingKind::ticket_time_resumed>(utc_text(gap->resumed_utc_ns)));
     const std::optional<MotionSource>& source = gap->by.source;
     if (source && (source->kind != setup.source.kind || source->name != setup.source.name))
-      findings.push_back(
-          {FindingKind::device_other, msg("the exam was begun with {}, and taken up again with {}", in_words(setup.source), in_words(*source))});
+      findings.push_back(finding<FindingKind::device_changed>(name_of(setup.source), name_of(*source)));
   }
   return findings;
 }
@@ -69,32 +66,24 @@ Findings check_begin(const LedgerContent& content, const SessionReader& session,
     if (key == k_begin_note) text = value;
   if (text.empty()) {
     if (!ticket.begins.empty())
-      findings.push_back({FindingKind::begin_missing,
-                          msg("the ledger let this exam begin on {} (entry {}), and the recording does not bear its word: it was begun without it",
-                              utc_text(ticket.begins.back().utc_ns), ticket.begins.back().seq)});
+      findings.push_back(finding<FindingKind::begin_missing>(utc_text(ticket.begins.back().utc_ns), ticket.begins.back().seq));
     else if (ticket.ticket.begun_at_ledger)
-      findings.push_back({FindingKind::begin_missing, msg("its ticket asks for the ledger's word to begin, and nobody asked the ledger")});
+      findings.push_back(finding<FindingKind::begin_not_asked>());
     return findings;
   }
   Begin b;
   try {
     b = parse_begin(text, "", msg("the ledger's word to begin"));
   } catch (const Error& e) {
-    return {{FindingKind::begin_invalid, e.message()}};
+    return {finding<FindingKind::begin_invalid>(e.message())};
   }
-  if (b.ledger != content.id || !content.has_key(b.public_key) || b.ticket != ticket.ticket.nonce)
-    return {{FindingKind::begin_invalid, msg("the word to begin in it is of another ledger or ticket")}};
+  if (b.ledger != content.id || !content.has_key(b.public_key) || b.ticket != ticket.ticket.nonce) return {finding<FindingKind::begin_of_other>()};
   const auto found = std::find_if(ticket.begins.begin(), ticket.begins.end(), [&](const LetBegin& l) { return l.nonce == b.nonce; });
-  if (found == ticket.begins.end()) return {{FindingKind::begin_invalid, msg("the ledger has not given the word to begin that is in it")}};
+  if (found == ticket.begins.end()) return {finding<FindingKind::begin_not_given>()};
   if (found + 1 != ticket.begins.end())
-    findings.push_back(
-        {FindingKind::begin_invalid,
-         msg("it was begun with the ledger's word of {}, and the ledger let the exam begin again on {}: only the recording with the last word counts",
-             utc_text(b.utc_ns), utc_text(ticket.begins.back().utc_ns))});
+    findings.push_back(finding<FindingKind::begin_not_last>(utc_text(b.utc_ns), utc_text(ticket.begins.back().utc_ns)));
   if (session.created().utc_ns < b.utc_ns - k_patience_ns)
-    findings.push_back(
-        {FindingKind::clock, msg("by the station's clock the exam began on {}, and the ledger let it begin on {}: the station's clock was set back",
-                                 utc_text(session.created().utc_ns), utc_text(b.utc_ns))});
+    findings.push_back(finding<FindingKind::begun_before_let>(utc_text(session.created().utc_ns), utc_text(b.utc_ns)));
   return findings;
 }
 
@@ -120,60 +109,46 @@ Findings check_hand(const Registry& registry, const SessionReader& session, cons
                     const FilingOptions& options) {
   Findings findings;
   if (const std::string by = simulated_by(session, setup); !by.empty()) {
-    if (!options.simulated)
-      findings.push_back({FindingKind::no_hand, msg("no candidate's hand moved this exam, but '{}' (--simulated files it as that)", by)});
+    if (!options.simulated) findings.push_back(finding<FindingKind::no_hand>(by));
     return findings;
   }
-  if (session.fact(k_station_fact).empty())
-    findings.push_back(
-        {FindingKind::station_unknown, msg("the recording does not say which station began it, and bears no signature of its beginning")});
+  if (session.fact(k_station_fact).empty()) findings.push_back(finding<FindingKind::beginning_unsigned>());
   const std::string key = to_hex(session.seal()->public_key);
   if (auto why = registry.stations.problem(key, session.seal()->clocks.utc_ns, received_utc_ns)) {
     findings.push_back(std::move(*why));
   } else if (const auto& known = registry.stations.of(key)->devices; !known.empty()) {
     for (const auto& [tick, source] : sources_of(session))
       if (std::find(known.begin(), known.end(), source) == known.end())
-        findings.push_back({FindingKind::device_other,
-                            msg("the stylus {} (serial number '{}') is none that the station was enrolled with", source.name, source.serial)});
+        findings.push_back(finding<FindingKind::device_other>(source.name, source.serial));
   }
   for (const auto& remark : check_clocks(session))
-    if (remark.doubtful) findings.push_back({FindingKind::clock, msg("clocks, from tick {}: {}", remark.first_tick, remark.what)});
+    if (remark.doubtful) findings.push_back(static_cast<const Damage&>(remark));
   return findings;
 }
 
-/// Where a recording ends that was perhaps taken up again at or after this tick.
-Message end_of(const SessionReader& session, std::int64_t tick) {
-  for (const auto& e : session.event_rows())
-    if (e.as<RecordingGap>() != nullptr && e.tick >= tick) return msg("at tick {}, taken up again at tick {}", session.ticks(), e.tick);
-  return msg("at tick {}", session.ticks());
-}
-
 /// How far a session and one that was filed with the same ticket are one recording: an exam that was ended twice is so up to where one was cut back.
-Message other_ending(const SessionReader& session, std::uint64_t seq, const std::string& filed_path) {
+Finding other_ending(const SessionReader& session, std::uint64_t seq, const std::string& filed_path) {
   try {
     const SessionReader filed(filed_path);
     const auto &mine = session.chunks(), &theirs = filed.chunks();
     std::size_t same = 0;
     while (same < std::min(mine.size(), theirs.size()) && mine[same].sha256 == theirs[same].sha256) ++same;
-    if (same == 0) return msg("the ticket was used before: entry {} holds another recording", seq);
+    if (same == 0) return finding<FindingKind::ticket_used_recording>(seq);
     const std::int64_t tick = mine[same - 1].first_tick + mine[same - 1].ticks;
-    return msg(
-        "the ticket was used before: entry {} holds another ending of the same recording: both are the same up to tick {}; that one ends {}, this "
-        "one {}",
-        seq, tick, end_of(filed, tick), end_of(session, tick));
+    return finding<FindingKind::ticket_used_ending>(seq, tick, filed.ticks(), session.ticks());
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
-    return msg("the ticket was used before: entry {}, whose file cannot be compared: {}", seq, said_by(e));
+    return finding<FindingKind::ticket_used_unread>(seq, said_by(e));
   }
 }
 
 /// What of the beginning is entered in the ledger.
-std::vector<std::pair<Message, std::string>> texts_of(const SessionSetup& setup) {
+void check_texts(const SessionSetup& setup, Findings& findings) {
   const std::string &name = setup.source.name, &serial = setup.source.serial;
-  return {{msg("the candidate's name holds a control character or bytes that are no UTF-8: '{}'", setup.candidate), setup.candidate},
-          {msg("the name of the source of motion holds a control character or bytes that are no UTF-8: '{}'", name), name},
-          {msg("the serial number of the source of motion holds a control character or bytes that are no UTF-8: '{}'", serial), serial}};
+  if (!is_plain_text(setup.candidate)) findings.push_back(finding<FindingKind::text_unclean>(setup.candidate));
+  if (!is_plain_text(name)) findings.push_back(finding<FindingKind::source_unclean>(name));
+  if (!is_plain_text(serial)) findings.push_back(finding<FindingKind::serial_unclean>(serial));
 }
 
 }  // namespace
@@ -188,9 +163,7 @@ std::string ticket_nonce_in(const SessionSetup& setup) {
 std::string simulated_by(const SessionReader& session, const SessionSetup& setup) {
   for (const auto& [tick, source] : sources_of(session)) {
     if (source.kind == SourceKind::simulated_operator) return source.name.empty() ? text_of(source.kind) : source.name;
-    if (!source.is_hand())
-      return source.kind == SourceKind::unnamed ? "unnamed"
-                                                : fmt::format("{}{}{}", text_of(source.kind), source.name.empty() ? "" : " ", source.name);
+    if (!source.is_hand()) return name_of(source);
   }
   for (const auto& [key, value] : setup.notes)  // beside a source that says otherwise
     if (key == "operator" || key == "practice" || key == "motion_file")
@@ -200,53 +173,48 @@ std::string simulated_by(const SessionReader& session, const SessionSetup& setup
 
 Findings check_claims(const LedgerContent& content, const Registry& registry, const SessionReader& session, std::int64_t received_utc_ns,
                       const FilingOptions& options, const LedgerPlaces* filed) {
-  if (!session.closed()) return {{FindingKind::not_closed, msg("the session was never closed")}};
+  if (!session.closed()) return {damage<DamageKind::not_closed>(session.ticks())};
   const SessionSetup setup = session.setup();
   const std::string chain_sha256 = to_hex(session.seal()->chain_sha256), nonce = ticket_nonce_in(setup);
   Findings findings;
-  for (const auto& [finding, text] : texts_of(setup))
-    if (!is_plain_text(text)) findings.push_back({FindingKind::text_unclean, finding});
-  append(findings, findings_of(FindingKind::station_changed, check_stations(session)));
+  check_texts(setup, findings);
+  append(findings, check_stations(session));
   for (const auto& s : registry.sessions)
-    if (s.chain_sha256 == chain_sha256) findings.push_back({FindingKind::submitted_twice, msg("this session was submitted before: entry {}", s.seq)});
+    if (s.chain_sha256 == chain_sha256) findings.push_back(finding<FindingKind::submitted_twice>(s.seq));
   const std::string text = ticket_text_in(setup);
   append(findings, check_hand(registry, session, setup, received_utc_ns, options));
   append(findings, unexplained_holds(registry.day, to_hex(session.seal()->public_key), held_times(session), received_utc_ns));
   if (text.empty()) {
-    if (!options.without_ticket) findings.push_back({FindingKind::ticket_missing, msg("the session holds no ticket: nobody promised this exam")});
-    if (is_pseudonym(setup.candidate))
-      findings.push_back({FindingKind::ticket_missing, msg("the session bears a pseudonym, and no ticket that it was given by")});
+    if (!options.without_ticket) findings.push_back(finding<FindingKind::ticket_missing>());
+    if (is_pseudonym(setup.candidate)) findings.push_back(finding<FindingKind::ticket_of_pseudonym>());
     append(findings, check_course(session, setup, {}, 0, received_utc_ns));
     return findings;
   }
   try {
     const Ticket ticket = parse_ticket(text, "", msg("the session's ticket"));
-    if (!content.has_key(ticket.public_key))
-      findings.push_back({FindingKind::ticket_other_school, msg("the session's ticket is the ticket of another school")});
+    if (!content.has_key(ticket.public_key)) findings.push_back(finding<FindingKind::ticket_other_school>());
     append(findings, check_ticket(ticket, setup, session.created().utc_ns));
-    if (ticket.ledger != content.id) findings.push_back({FindingKind::ticket_unknown, msg("the ticket was issued by another ledger")});
+    if (ticket.ledger != content.id) findings.push_back(finding<FindingKind::ticket_other_ledger>());
     bool issued = false;
     for (const auto& t : registry.tickets) {
       if (t.ticket.nonce != nonce) continue;
       issued = true;
       if (t.cancelled_by)
-        findings.push_back({FindingKind::ticket_cancelled,
-                            msg("its ticket was cancelled on {} (entry {})", utc_text(content.entries.at(*t.cancelled_by).utc_ns), *t.cancelled_by)});
-      if (t.made_up_by) findings.push_back({FindingKind::ticket_made_up, msg("a makeup sitting was given in its place (entry {})", *t.made_up_by)});
+        findings.push_back(finding<FindingKind::ticket_cancelled>(utc_text(content.entries.at(*t.cancelled_by).utc_ns), *t.cancelled_by));
+      if (t.made_up_by) findings.push_back(finding<FindingKind::ticket_made_up>(*t.made_up_by));
       append(findings, check_begin(content, session, setup, t));
       append(findings, check_course(session, setup, t, content.entries.at(t.seq).utc_ns, received_utc_ns));
       if (t.used_by) {
         const auto other =
             std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.seq == *t.used_by; });
-        findings.push_back({FindingKind::ticket_used,
-                            filed == nullptr || other == registry.sessions.end() || other->motion_erased_by || other->chain_sha256 == chain_sha256
-                                ? msg("the ticket was used before: entry {}", *t.used_by)
-                                : other_ending(session, *t.used_by, filed->session(other->file_sha256))});
+        findings.push_back(filed == nullptr || other == registry.sessions.end() || other->motion_erased_by || other->chain_sha256 == chain_sha256
+                               ? finding<FindingKind::ticket_used>(*t.used_by)
+                               : other_ending(session, *t.used_by, filed->session(other->file_sha256)));
       }
     }
-    if (!issued) findings.push_back({FindingKind::ticket_unknown, msg("the ledger has not issued this ticket")});
+    if (!issued) findings.push_back(finding<FindingKind::ticket_unknown>());
   } catch (const Error& e) {
-    findings.push_back({FindingKind::ticket_invalid, e.message()});
+    findings.push_back(finding<FindingKind::ticket_invalid>(e.message()));
   }
   return findings;
 }

@@ -65,7 +65,7 @@ void take_lines(ClassRegrade& plan, const std::vector<std::string>& lines, const
     MarkedAnew& s = plan.sessions[i];
     const json line = parse_json_or_null(lines.at(i), k_json_part);
     if (!member_of(line, "result").is_object())
-      throw Error(msg("entry {}", s.session), lines[i].empty() ? msg("could not be marked") : msg("{}", List{pool::said_in(line), true}),
+      throw Error(msg("entry {}", s.session), lines[i].empty() ? msg("could not be marked") : pool::error_in(line),
                   msg("nothing was entered; correct the rubric or scenario, or mark the others by --session"));
     if (text_in(line, "sha256") != s.file_sha256)
       throw Error(msg("entry {}", s.session), msg("its recording is another one by now"), msg("see `cavum ledger verify {}`", ledger_folder));

@@ -82,23 +82,10 @@ Message entries(std::uint64_t n) { return msgn("{} entry", "{} entries", static_
 
 /// Why the checkpoint does not go on from what is remembered.
 Findings fork_of(const Memory& m, const Checkpoint& p, const Request& r, const std::string& path) {
-  if (p.size < m.last.size)
-    return {
-        {FindingKind::older_copy,
-         msg("the ledger was put back to an older copy, or this is an older file: it has {}, and {} were cosigned; keep this file and {}: both bear "
-             "the school's signature",
-             entries(p.size), entries(m.last.size), path)}};
+  if (p.size < m.last.size) return {finding<FindingKind::older_than_cosigned>(p.size, m.last.size, path)};
   if (is_consistent(m.last.size, m.last.root, p.size, p.root, r.proof)) return {};
-  if (p.size == m.last.size)
-    return {{FindingKind::rewritten,
-             msg("the ledger has other entries than those that were cosigned: history was rewritten; keep this file and {}: both bear the school's "
-                 "signature",
-                 path)}};
-  return {
-      {FindingKind::rewritten,
-       msg("the proof does not lead from the {} that were cosigned to these: history was rewritten, or the file was damaged; keep this file and {}: "
-           "both bear the school's signature",
-           entries(m.last.size), path)}};
+  if (p.size == m.last.size) return {finding<FindingKind::rewritten_cosigned>(path)};
+  return {finding<FindingKind::rewritten_proof>(m.last.size, path)};
 }
 
 }  // namespace
@@ -139,11 +126,7 @@ Cosigned cosign(const Cosigner& cosigner, const std::string& text, const std::st
   const Checkpoint& p = read.checkpoint;
   Cosigned out{{}, id, p.size, {}};
   if (!is_signed_by_school(id, school, p)) {
-    out.findings.push_back(
-        {FindingKind::signature_invalid,
-         memory ? msg("the school's signature does not hold: the checkpoint was changed, or is signed by another key; where the school replaced its "
-                      "key, the receipt of that entry shows it (--key-receipt)")
-                : msg("the school's signature does not hold: the checkpoint was changed, or is signed by another key")});
+    out.findings.push_back(memory ? finding<FindingKind::request_or_key>() : finding<FindingKind::request_signature>());
     return out;
   }
   const std::uint64_t last = memory ? memory->last.size : 0;
@@ -194,24 +177,20 @@ CosignedNoteCheck check_cosigned(const std::string& text, const std::vector<Note
     const ReadCheckpoint read = parse_checkpoint(text, key_then, msg("cosigned note"));
     const auto school = check_note(read.note, checkpoint_key(read.ledger_id, key_then));
     if (school != NoteVerdict::holds)
-      out.findings.push_back({FindingKind::signature_invalid, school == NoteVerdict::absent ? msg("the ledger's school has not signed it")
-                                                                                            : msg("the school's signature does not hold")});
+      out.findings.push_back(school == NoteVerdict::absent ? finding<FindingKind::note_unsigned>() : finding<FindingKind::signature_invalid>());
     else
       out.checkpoint = read.checkpoint;
     for (const auto& key : known) {
       const auto verdict = check_note(read.note, key);
-      if (verdict == NoteVerdict::broken)
-        out.findings.push_back({FindingKind::cosignature_invalid, msg("the cosignature of {} does not hold", key.name)});
+      if (verdict == NoteVerdict::broken) out.findings.push_back(finding<FindingKind::cosignature_invalid>(key.name));
       if (verdict != NoteVerdict::holds) continue;
       std::copy_if(read.note.signatures.begin(), read.note.signatures.end(), std::back_inserter(out.cosignatures),
                    [&](const NoteSignature& s) { return is_of(s, key); });
     }
-    if (out.cosignatures.empty())
-      out.not_checked.push_back(
-          {FindingKind::cosignature_unknown, msg("whether anybody cosigned it: it bears no cosignature of a cosigner that is known here")});
+    if (out.cosignatures.empty()) out.not_checked.push_back(finding<FindingKind::cosignature_none>());
     if (out.checkpoint) check_history(ledger, read.ledger_id, read.checkpoint, msg("the cosigned note"), out.findings);
   } catch (const Error& e) {
-    out.findings.push_back({FindingKind::malformed, e.where_and_problem()});
+    out.findings.push_back(finding<FindingKind::malformed>(e.where_and_problem()));
   }
   return out;
 }
@@ -219,20 +198,16 @@ CosignedNoteCheck check_cosigned(const std::string& text, const std::vector<Note
 void check_cosignatures(const LedgerContent& ledger, const std::vector<NoteKey>& known, Findings& findings, Findings& not_checked) {
   std::size_t strange = 0;
   for (const auto& s : ledger.cosignatures) {
-    const Message name = msg("cosignature of {} under {}", s.by.name, entries(s.size));
     const auto p = std::find_if(ledger.checkpoints.rbegin(), ledger.checkpoints.rend(), [&](const Checkpoint& c) { return c.size == s.size; });
     const auto key = std::find_if(known.begin(), known.end(), [&](const NoteKey& k) { return is_of(s.by, k); });
     if (p == ledger.checkpoints.rend())
-      findings.push_back({FindingKind::cosignature_invalid, msg("{}: there is no such checkpoint", name)});
+      findings.push_back(finding<FindingKind::cosignature_stray>(s.by.name, s.size));
     else if (key == known.end())
       ++strange;
     else if (!holds(s.by, *key, checkpoint_text(ledger.id, *p)))
-      findings.push_back({FindingKind::cosignature_invalid, msg("{}: does not hold", name)});
+      findings.push_back(finding<FindingKind::cosignature_invalid>(s.by.name));
   }
-  if (strange > 0)
-    not_checked.push_back({FindingKind::cosignature_unknown, msgn("{} cosignature is of a cosigner not known here: put its key line into {}",
-                                                                  "{} cosignatures are of cosigners not known here: put the key lines into {}",
-                                                                  static_cast<std::int64_t>(strange), strange, known_cosigners_path())});
+  if (strange > 0) not_checked.push_back(finding<FindingKind::cosignature_unknown>(strange, known_cosigners_path()));
 }
 
 }  // namespace cavum::records

@@ -56,8 +56,7 @@ Erased read_erased(const std::vector<LedgerEntry>& entries, Findings& findings) 
   for (const auto& e : entries)
     for (const auto& [seq, part] : erased_parts(e)) {
       if (seq == 0 || seq >= e.seq || seq >= entries.size() || !has_part(entries[seq], part))
-        findings.push_back(
-            {FindingKind::entry_contradicts, msg("entry {}: erases what is not there: '{}' of entry {}", e.seq, word_of(part), seq), e.seq});
+        findings.push_back(finding<FindingKind::erases_void>(Term{word_of(part)}, seq).in_entry(e.seq));
       else
         out[seq].emplace(part, e.seq);
     }
@@ -121,7 +120,7 @@ std::size_t remove_forgotten(const LedgerContent& c, Identities& identities) {
 Identities sound_identities(const Ledger& ledger) {
   Identities identities(ledger.places().identities());
   if (const auto wrong = identities.check(ledger.key()); !wrong.empty())
-    throw Error(ledger.places().identities(), wrong[0].what, msg("restore the file from its backup: marks would go to somebody else"));
+    throw Error(ledger.places().identities(), wrong[0].message(), msg("restore the file from its backup: marks would go to somebody else"));
   remove_forgotten(ledger.content(), identities);
   return identities;
 }

@@ -101,9 +101,7 @@ Findings unexplained_holds(const ExamDay& day, const std::string& station, std::
       const std::int64_t until = h.ended_by ? h.ended_utc_ns : received_utc_ns;
       return h.audience.holds(station) && from >= h.utc_ns - k_clocks_ns && to <= until + k_clocks_ns && to - from <= until - h.utc_ns + k_network_ns;
     });
-    if (!known)
-      findings.push_back({FindingKind::pause_unknown, msg("its clock was held for the office from {} to {}, and the ledger knows of no such pause",
-                                                          utc_text(begun), utc_text(ended))});
+    if (!known) findings.push_back(finding<FindingKind::pause_unknown>(utc_text(begun), utc_text(ended)));
   }
   return findings;
 }

@@ -9,6 +9,7 @@
 
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
+#include "engine/base/json_struct.h"
 #include "engine/base/said_by.h"
 #include "engine/base/text.h"
 #include "engine/session/session.h"
@@ -153,7 +154,7 @@ std::string signed_results(const Registry& registry, const Ledger& ledger) {
                        {"chosen", s.chosen},
                        {"makes_up", s.makes_up ? json(s.makes_up->ticket) : json()},
                        {"made_up_by", s.made_up_by ? json(*s.made_up_by) : json()},
-                       {"findings", s.findings}});
+                       {"findings", to_json_value(s.findings)}});
   const Checkpoint& p = ledger.content().checkpoints.back();
   json facts = {{"results", results},
                 {"ledger", ledger.content().id},
@@ -169,30 +170,26 @@ Findings check_results(const std::string& text, const std::string& public_key, c
   try {
     json facts = parse_json(text, msg("results"));
     const std::string written = text.substr(0, text.find_last_not_of("\r\n") + 1);
-    if (facts.dump() != written)
-      findings.push_back({FindingKind::malformed, msg("the text was written anew: keys, spaces or numbers are not as the school wrote them")});
+    if (facts.dump() != written) findings.push_back(finding<FindingKind::results_rewritten>());
     const std::string key = facts.at("public_key");
     const auto signature = fixed_from_hex<64>(facts.at("signature"), msg("signature"));
     facts.erase("signature");
-    if (ledger == nullptr && !public_key.empty() && key != public_key)
-      findings.push_back({FindingKind::other_school, msg("the results are signed by another school's key")});
+    if (ledger == nullptr && !public_key.empty() && key != public_key) findings.push_back(finding<FindingKind::results_other_school>());
     if (!is_signed_by(fixed_from_hex<32>(key, "public_key"), results_message(facts), signature))
-      findings.push_back({FindingKind::signature_invalid, msg("the school's signature on the results does not hold: something was changed")});
+      findings.push_back(finding<FindingKind::results_signature>());
     if (ledger != nullptr) {
       const std::string id = facts.at("ledger");
       const Checkpoint seen = checkpoint_in(facts.at("checkpoint"), id, key, msg("results"));
-      if (key != ledger->key_of(seen.size))
-        findings.push_back({FindingKind::other_school, msg("the results are signed by a key that was not the school's at that time")});
-      if (!is_signed_by_school(id, key, seen))
-        findings.push_back({FindingKind::signature_invalid, msg("the school's signature on the checkpoint does not hold")});
+      if (key != ledger->key_of(seen.size)) findings.push_back(finding<FindingKind::results_other_key>());
+      if (!is_signed_by_school(id, key, seen)) findings.push_back(finding<FindingKind::results_checkpoint>());
       check_history(*ledger, id, seen, msg("the export"), findings);
     }
   } catch (const json::exception&) {
-    findings.push_back({FindingKind::malformed, msg("are no exported results: name a file that `cavum ledger export --format json` wrote")});
+    findings.push_back(finding<FindingKind::no_results>());
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
-    findings.push_back({FindingKind::malformed, msg("are no exported results: {}", said_by(e))});
+    findings.push_back(finding<FindingKind::results_unreadable>(said_by(e)));
   }
   return findings;
 }

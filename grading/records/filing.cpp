@@ -53,15 +53,15 @@ SessionEntry entry_of(const SessionReader& session, const SessionSetup& setup, c
 void require_closed(const SessionReader& session) {
   const std::string& path = session.path();
   if (!session.closed() && !session.findings().empty())
-    throw Error(path, msg("is damaged: {}", session.findings().front().what), msg("use an intact copy"));
+    throw Error(path, msg("is damaged: {}", session.findings().front().message()), msg("use an intact copy"));
   if (!session.closed())
     throw Error(path, msg("was never closed"), msg("resume the exam, or close it as it stands: `cavum exam --resume --end --out {}`", path));
 }
 
 Bytes image_of(const std::string& path, Findings& findings) {
-  std::vector<Message> left_out;
+  Damages left_out;
   Bytes image = read_session_image(path, left_out);
-  append(findings, findings_of(FindingKind::recording_unsound, left_out));
+  append(findings, left_out);
   return image;
 }
 
@@ -76,7 +76,7 @@ void enter(Ledger& ledger, const Bytes& image, const SessionReader& session, con
   const std::string file_sha256 = to_hex(sha256(image));
   const auto claims = claims_of(ledger, session, options);
   const auto refused = [&] { return !out.findings.empty() && !options.with_findings; };
-  append(out.findings, findings_of(mark));
+  append(out.findings, mark.findings());
   append(out.findings, claimed);
   if (refused()) return;
 
@@ -114,9 +114,7 @@ Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions
   auto claimed = claims_of(ledger, session, options)(ledger.content());
   if (session.ticks() > k_longest_refused_ticks && !claimed.empty() && !options.with_findings) {  // a stranger's file is not worth minutes of work
     out.findings = std::move(claimed);
-    out.findings.push_back(
-        {FindingKind::not_simulated, msg("it lasts {} minutes, and was not simulated: of what is refused as it is at most 10 minutes are",
-                                         as_number(static_cast<double>(session.ticks()) * k_tick_s / 60.0, 0))});
+    out.findings.push_back(finding<FindingKind::not_simulated_long>(as_number(static_cast<double>(session.ticks()) * k_tick_s / 60.0, 0)));
     return out;
   }
   enter(ledger, image, session, grading::mark_again(session, grounds), options, claimed, seen, out);

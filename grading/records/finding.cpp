@@ -1,55 +1,61 @@
 #include "grading/records/finding.h"
 
-#include "engine/base/json_fields.h"
 #include "engine/base/json_struct.h"
-#include "engine/base/message_json.h"
-#include "grading/marking/school_mark.h"
 
 namespace cavum::records {
 
 using nlohmann::json;
 
-Findings findings_of(FindingKind kind, const std::vector<Message>& messages) {
-  Findings out;
-  for (const Message& m : messages) out.push_back({kind, m});
+Finding Finding::in_entry(std::uint64_t seq) const {
+  Finding out = *this;
+  out.entry = seq;
   return out;
 }
 
-Findings findings_of(const grading::SchoolMark& mark) {
-  const bool open = mark.replay.intact && !mark.replay.closed;  // and nothing else is wrong
-  Findings out = findings_of(open ? FindingKind::not_closed : FindingKind::recording_unsound, words_of(mark.replay.findings));
-  append(out, findings_of(FindingKind::exam_differs, mark.exam));
-  if (!mark.other_result.empty()) out.push_back({FindingKind::result_differs, mark.other_result});
-  return out;
+Message Finding::message() const {
+  const Message sentence = entry ? msg("entry {}: {}", *entry, TableFact::message()) : TableFact::message();
+  return where.empty() ? sentence : msg("{}: {}", where, sentence);
 }
 
 std::vector<Message> words_of(const Findings& findings) {
   std::vector<Message> out;
-  for (const Finding& f : findings) out.push_back(f.what);
+  for (const Finding& f : findings) out.push_back(f.message());
   return out;
 }
 
-Findings named(const Message& before, Findings findings) {
-  for (Finding& f : findings) f.what = msg("{}: {}", before, f.what);
+Findings named(const std::string& where, Findings findings) {
+  for (Finding& f : findings) f.where = where;
   return findings;
 }
 
 void append(Findings& to, const Findings& more) { to.insert(to.end(), more.begin(), more.end()); }
+void append(Findings& to, const Damages& more) { to.insert(to.end(), more.begin(), more.end()); }
 
-void to_json(json& j, const Finding& finding) {
-  j = fact_json(name_in(finding.kind), finding.what);
-  if (finding.entry) j["entry"] = *finding.entry;
+void to_json(json& j, const Finding& f) {
+  j = fact_json(rows_of(f.kind), static_cast<std::size_t>(f.kind), f.values, f.message());
+  if (f.entry) j["entry"] = *f.entry;
+  if (!f.where.empty()) j["where"] = f.where;
 }
 
 json write_json(const Finding& f) {
-  json out = encode(f.what);
-  out["kind"] = to_json_value(f.kind);
+  json out = encode(f.row(), kept(f.values));
+  if (f.entry) out["entry"] = *f.entry;
+  if (!f.where.empty()) out["where"] = f.where;
   return out;
 }
 
 void read_json(const json& from, const JsonPlace& at, Finding& f) {
-  read_json_value(member_of(from, "kind"), at.member("kind"), f.kind);
-  read_json_value(from, at, f.what);
+  json fact;
+  auto all = json_inside([&](auto& of) {
+    of("kind", fact["kind"]), of("values", fact["values"]);
+    of("entry", f.entry), of("where", f.where, JsonField::sparse);
+  });
+  read_json_value(from, at, all);
+  try {
+    static_cast<TableFact<FindingKind>&>(f) = decode_fact<FindingKind>(fact);
+  } catch (const std::invalid_argument& e) {
+    at.refuse(msg("is no finding: {}", e.what()));
+  }
 }
 
 }  // namespace cavum::records

@@ -31,14 +31,11 @@ std::vector<RestoredHere> restores_of(const LedgerContent& c) {
   return out;
 }
 
-Message in_words(const RestoredHere& r) {
-  const Message backup =
-      msgn("entry {}: on {} the ledger went on from a backup of {} entry", "entry {}: on {} the ledger went on from a backup of {} entries",
-           static_cast<std::int64_t>(r.seq), r.seq, utc_text(r.utc_ns), r.seq);
-  if (r.lost_size == 0) return msg("{}; nothing was known to be lost", backup);
-  const auto lost = static_cast<std::int64_t>(r.lost_size - std::min(r.lost_size, r.seq));
-  return msgn("{}; {} later entry was lost, which the school accepted: {}", "{}; {} later entries were lost, which the school accepted: {}", lost,
-              backup, lost, r.reason);
+Finding finding_of(const RestoredHere& r) {
+  const std::string utc = utc_text(r.utc_ns);
+  return (r.lost_size == 0 ? finding<FindingKind::restored>(utc, r.seq)
+                           : finding<FindingKind::restored_with_loss>(utc, r.seq, r.lost_size - std::min(r.lost_size, r.seq), r.reason))
+      .in_entry(r.seq);
 }
 
 const RestoredHere* History::recorded_loss(const Checkpoint& seen) const {
@@ -62,15 +59,12 @@ Standing History::standing_of(const Checkpoint& seen) const {
 
 Standing check_history(const History& ledger, const std::string& id, const Checkpoint& seen, const Message& what, Findings& findings) {
   if (ledger.ledger_id() != id) {
-    findings.push_back({FindingKind::other_ledger, msg("{} is of another ledger", what)});
+    findings.push_back(finding<FindingKind::other_ledger>(what));
     return Standing::begins_with_it;
   }
   const Standing standing = ledger.standing_of(seen);
-  if (standing == Standing::older_copy)
-    findings.push_back({FindingKind::older_copy,
-                        msg("the ledger was put back to an older copy: it has {} entries, {} saw {}", ledger.roots().size(), what, seen.size)});
-  if (standing == Standing::rewritten)
-    findings.push_back({FindingKind::rewritten, msg("the ledger no longer begins with what {} saw: history was rewritten", what)});
+  if (standing == Standing::older_copy) findings.push_back(finding<FindingKind::older_copy>(ledger.roots().size(), what, seen.size));
+  if (standing == Standing::rewritten) findings.push_back(finding<FindingKind::rewritten>(what));
   return standing;
 }
 
@@ -78,26 +72,22 @@ void check_checkpoints(LedgerContent& c) {
   const History history(c);
   const auto& roots = history.roots();
   if (c.public_key.size() != 64 || c.public_key.find_first_not_of("0123456789abcdef") != std::string::npos) {
-    c.findings.push_back({FindingKind::no_beginning, msg("entry 0: names no school's public key"), 0});
+    c.findings.push_back(finding<FindingKind::no_school_key>().in_entry(0));
     return;
   }
   std::uint64_t expected = 0;
   for (const auto& p : c.checkpoints) {
-    const Message name = msg("checkpoint {}", p.size);
     if (p.size != ++expected) {
-      c.findings.push_back({FindingKind::checkpoint_missing, msg("checkpoint {}: is missing", expected)});
+      c.findings.push_back(finding<FindingKind::checkpoint_missing>(expected));
       expected = p.size;
     }
-    if (!is_signed_by_school(c.id, c.key_of(p.size), p))
-      c.findings.push_back({FindingKind::signature_invalid, msg("{}: the school's signature does not hold", name)});
+    if (!is_signed_by_school(c.id, c.key_of(p.size), p)) c.findings.push_back(finding<FindingKind::checkpoint_signature>(p.size));
     if (p.size > roots.size())
-      c.findings.push_back(
-          {FindingKind::entry_missing, msg("{}: signed for {} entries, and there are {}: entries were taken out", name, p.size, roots.size())});
+      c.findings.push_back(finding<FindingKind::entries_taken_out>(p.size, p.size, roots.size()));
     else if (p.size > 0 && roots[p.size - 1] != p.root)
-      c.findings.push_back({FindingKind::tree_differs, msg("{}: an entry up to number {} is not what the school signed", name, p.size - 1)});
+      c.findings.push_back(finding<FindingKind::tree_differs>(p.size, p.size - 1));
   }
-  if (expected < c.entries.size())
-    c.findings.push_back({FindingKind::checkpoint_missing, msg("entry {}: the school has signed nothing from here on", expected), expected});
+  if (expected < c.entries.size()) c.findings.push_back(finding<FindingKind::checkpoint_none>().in_entry(expected));
 }
 
 void check_witness(LedgerContent& c, const std::vector<Checkpoint>& witnessed) {
@@ -109,24 +99,15 @@ void check_witness(LedgerContent& c, const std::vector<Checkpoint>& witnessed) {
     const Standing standing = history.standing_of(w);
     if (standing == Standing::begins_with_it || standing == Standing::loss_on_record) continue;
     if (!is_signed_by_school(c.id, c.key_of(w.size), w)) {
-      c.findings.push_back(
-          {FindingKind::witness_changed,
-           w.size > roots.size()
-               ? msg("{}: the witness was changed at entry {}, or an older copy of the ledger was put back, from before the school's key "
-                     "was replaced",
-                     witness_path(c.id), w.size)
-               : msg("{}: the witness was changed at entry {}", witness_path(c.id), w.size)});
+      c.findings.push_back(w.size > roots.size() ? finding<FindingKind::witness_or_older>(witness_path(c.id), w.size)
+                                                 : finding<FindingKind::witness_changed>(witness_path(c.id), w.size));
       return;
     }
     if (standing == Standing::older_copy && (ahead == nullptr || w.size > ahead->size)) ahead = &w;
     if (standing == Standing::rewritten && other == nullptr) other = &w;
   }
-  if (ahead != nullptr)
-    c.findings.push_back({FindingKind::older_copy, msg("the ledger was put back to an older copy: it has {} entries, and had {} on {}", roots.size(),
-                                                       ahead->size, utc_text(ahead->utc_ns))});
-  if (other != nullptr)
-    c.findings.push_back({FindingKind::rewritten,
-                          msg("the ledger's first {} entries are not those of {}: history was rewritten", other->size, utc_text(other->utc_ns))});
+  if (ahead != nullptr) c.findings.push_back(finding<FindingKind::older_than_witness>(roots.size(), ahead->size, utc_text(ahead->utc_ns)));
+  if (other != nullptr) c.findings.push_back(finding<FindingKind::rewritten_witness>(other->size, utc_text(other->utc_ns)));
 }
 
 }  // namespace cavum::records

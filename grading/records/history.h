@@ -21,7 +21,7 @@ struct RestoredHere {
 };
 [[nodiscard]] std::vector<RestoredHere> restores_of(const LedgerContent& content);
 /// For people who check the ledger.
-[[nodiscard]] Message in_words(const RestoredHere& restored);
+[[nodiscard]] Finding finding_of(const RestoredHere& restored);
 /// How a ledger stands to a checkpoint that somebody saw.
 enum class Standing { begins_with_it, older_copy, rewritten, loss_on_record };
 /// A ledger's roots at every size, and what it says was lost; made once for many questions.

@@ -122,8 +122,7 @@ std::vector<Identity> Identities::all() { return identities(select(database_, "O
 Findings Identities::check(const SigningKey& school) {
   Findings findings;
   for (const auto& r : rows(select(database_, "ORDER BY pseudonym")))
-    if (!holds(r, school))
-      findings.push_back({FindingKind::identities_changed, msg("identities: {} is not whom it was given to; the row was changed", r.who.pseudonym)});
+    if (!holds(r, school)) findings.push_back(finding<FindingKind::identities_changed>(r.who.pseudonym));
   return findings;
 }
 

@@ -72,8 +72,8 @@ void Ledger::reload() {
   }
   if (!content_.findings.empty())
     throw Error(LedgerError::damaged, Name{places_.folder},
-                use_ != LedgerUse::tell ? msg("nothing is added to a ledger that does not hold ({})", content_.findings.front().what)
-                                        : msg("nothing is told of a ledger that does not hold ({})", content_.findings.front().what),
+                use_ != LedgerUse::tell ? msg("nothing is added to a ledger that does not hold ({})", content_.findings.front().message())
+                                        : msg("nothing is told of a ledger that does not hold ({})", content_.findings.front().message()),
                 msg("see `cavum ledger verify {}`, and go back to the copy that holds", places_.folder));
   if (content_.public_key != to_hex(key_.public_key))
     throw Error(LedgerError::another_key, Name{places_.folder},

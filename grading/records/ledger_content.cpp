@@ -22,21 +22,15 @@ namespace {
 
 /// What the row says, as far as it can be read; else a finding.
 LedgerEntry parse_entry(std::uint64_t seq, const std::string& text, const Sha256& leaf, Findings& findings) {
-  const Message name = msg("entry {}", seq);
-  if (leaf_hash(ledger_bytes(text)) != leaf)
-    findings.push_back({FindingKind::entry_changed, msg("{}: its text was changed after it was entered", name), seq});
+  if (leaf_hash(ledger_bytes(text)) != leaf) findings.push_back(finding<FindingKind::entry_changed>().in_entry(seq));
   LedgerEntry e;
   try {
-    e = read_entry(text, name);
-    if (entry_text(e) != text)
-      findings.push_back(
-          {FindingKind::entry_malformed, msg("{}: is not written as this program writes entries: keys, spaces or numbers", name), seq});
-    if (e.seq != seq)
-      findings.push_back({FindingKind::entry_out_of_order, msg("{}: was entered as number {}: entries were moved", name, e.seq), seq});
-    if (e.as<InitEntry>() != nullptr && seq != 0)
-      findings.push_back({FindingKind::entry_out_of_order, msg("{}: begins a ledger a second time", name), seq});
+    e = read_entry(text, msg("entry {}", seq));
+    if (entry_text(e) != text) findings.push_back(finding<FindingKind::entry_malformed>().in_entry(seq));
+    if (e.seq != seq) findings.push_back(finding<FindingKind::entry_out_of_order>(e.seq).in_entry(seq));
+    if (e.as<InitEntry>() != nullptr && seq != 0) findings.push_back(finding<FindingKind::begins_again>().in_entry(seq));
   } catch (const Error& wrong) {
-    findings.push_back({FindingKind::entry_malformed, wrong.where_and_problem(), seq});
+    findings.push_back(finding<FindingKind::entry_unreadable>(wrong.problem()).in_entry(seq));
     e.text = text;
   }
   e.seq = seq;
@@ -56,25 +50,23 @@ void take_openings(LedgerContent& c, const std::map<std::string, std::string>& s
   for (auto& e : c.entries) {
     if (!e.what) continue;
     for (const auto& [part, opening] : openings_of(*e.what)) {
-      const Message name = msg("entry {}: its {}", e.seq, word_of(part));
+      const Term name{word_of(part)};
       const auto found = stored.find(opening->sha256);
       const bool there = found != stored.end();
       const auto by = erased_by(c.erased, e.seq, part);
       named.insert(opening->sha256);
-      if (!there && !by) c.findings.push_back({FindingKind::part_missing, msg("{} was taken out of the ledger", name), e.seq});
-      if (there && by)
-        c.findings.push_back({FindingKind::erased_still_there, msg("{} was erased by entry {}, and stands there again", name, *by), e.seq});
+      if (!there && !by) c.findings.push_back(finding<FindingKind::part_missing>(name).in_entry(e.seq));
+      if (there && by) c.findings.push_back(finding<FindingKind::part_there_again>(name, *by).in_entry(e.seq));
       if (!there) continue;
       try {
         opening->value = opened_value(found->second, opening->sha256, msg("opening"));
       } catch (const Error&) {
-        c.findings.push_back({FindingKind::part_changed, msg("{} was changed after it was entered", name), e.seq});
+        c.findings.push_back(finding<FindingKind::part_changed>(name).in_entry(e.seq));
       }
     }
   }
   for (const auto& [hash, text] : stored)
-    if (!named.contains(hash))
-      c.findings.push_back({FindingKind::foreign, msg("opening {}: belongs to no entry; it was put into the ledger's file", hash)});
+    if (!named.contains(hash)) c.findings.push_back(finding<FindingKind::opening_foreign>(hash));
 }
 
 std::map<std::string, std::string> stored_openings(Database& db) {
@@ -92,8 +84,7 @@ void read_documents(Database& db, LedgerContent& c) {
     while (rows.step()) {
       const std::string hash = to_hex(rows.fixed_blob<32>(0));
       Bytes bytes = rows.blob(1);
-      if (to_hex(sha256(bytes)) != hash)
-        c.findings.push_back({FindingKind::part_changed, msg("document {}: was changed after it was entered", hash)});
+      if (to_hex(sha256(bytes)) != hash) c.findings.push_back(finding<FindingKind::document_changed>(hash));
       c.documents[hash] = std::move(bytes);
     }
   }
@@ -102,13 +93,10 @@ void read_documents(Database& db, LedgerContent& c) {
     if (const auto* regrade = e.as<RegradeEntry>())
       for (const auto& [name, hash] : regrade->by) {
         named.insert(hash);
-        if (!c.documents.contains(hash))
-          c.findings.push_back(
-              {FindingKind::part_missing, msg("entry {}: the {} that its result was marked by was taken out of the ledger", e.seq, name), e.seq});
+        if (!c.documents.contains(hash)) c.findings.push_back(finding<FindingKind::document_missing>(name).in_entry(e.seq));
       }
   for (const auto& [hash, bytes] : c.documents)
-    if (!named.contains(hash))
-      c.findings.push_back({FindingKind::foreign, msg("document {}: belongs to no entry; it was put into the ledger's file", hash)});
+    if (!named.contains(hash)) c.findings.push_back(finding<FindingKind::document_foreign>(hash));
 }
 
 /// Notes and cosignatures as they are stored; read when the ledger's id and key are known.
@@ -133,10 +121,10 @@ void take_notes(LedgerContent& c, const StoredNotes& stored) {
     try {
       const ReadCheckpoint read = parse_checkpoint(text, c.key_of(size), name);
       if (read.ledger_id != c.id || read.checkpoint.size != size || text != checkpoint_note(c.id, c.key_of(size), read.checkpoint))
-        c.findings.push_back({FindingKind::malformed, msg("{}: its note is not as the school wrote it", name)});
+        c.findings.push_back(finding<FindingKind::note_changed>(size));
       c.checkpoints.push_back(read.checkpoint);
     } catch (const Error& e) {
-      c.findings.push_back({FindingKind::malformed, e.where_and_problem()});
+      c.findings.push_back(finding<FindingKind::malformed>(e.where_and_problem()));
     }
   }
   for (const auto& [size, line] : stored.cosignatures) {
@@ -144,7 +132,7 @@ void take_notes(LedgerContent& c, const StoredNotes& stored) {
     try {
       c.cosignatures.push_back({size, parse_signature_line(line, name)});
     } catch (const Error& e) {
-      c.findings.push_back({FindingKind::malformed, e.where_and_problem()});
+      c.findings.push_back(finding<FindingKind::malformed>(e.where_and_problem()));
     }
   }
 }
@@ -195,7 +183,7 @@ LedgerContent read_content(Database& db, const std::string& where, AskWitness as
     auto rows = db.prepare("SELECT seq, text, leaf_sha256 FROM entry ORDER BY seq");
     for (std::uint64_t expected = 0; rows.step(); ++expected) {
       const auto seq = static_cast<std::uint64_t>(rows.integer(0));
-      if (seq != expected) c.findings.push_back({FindingKind::entry_missing, msg("entry {}: is missing", expected), expected});
+      if (seq != expected) c.findings.push_back(finding<FindingKind::entry_missing>().in_entry(expected));
       expected = seq;
       c.entries.push_back(parse_entry(seq, rows.text(1), rows.fixed_blob<32>(2), c.findings));
     }
@@ -207,7 +195,7 @@ LedgerContent read_content(Database& db, const std::string& where, AskWitness as
   take_openings(c, openings);
   const auto* init = c.entries.empty() ? nullptr : c.entries[0].as<InitEntry>();
   if (init == nullptr) {
-    c.findings.push_back({FindingKind::no_beginning, msg("entry 0: does not begin a ledger"), 0});
+    c.findings.push_back(finding<FindingKind::no_beginning>().in_entry(0));
     return c;
   }
   c.id = init->ledger;
@@ -218,9 +206,7 @@ LedgerContent read_content(Database& db, const std::string& where, AskWitness as
   check_witness(c, witnessed);
   std::int64_t before = 0;
   for (const auto& e : c.entries) {
-    if (e.utc_ns < before)
-      c.remarks.push_back({FindingKind::clock_set_back,
-                           msg("entry {}: by the computer's clock it is older than the one before; the clock was set back", e.seq), e.seq});
+    if (e.utc_ns < before) c.remarks.push_back(finding<FindingKind::clock_set_back>().in_entry(e.seq));
     before = e.utc_ns;
   }
   return c;
@@ -241,9 +227,10 @@ LedgerContent read_ledger(const LedgerPlaces& places, AskWitness ask) {
   } catch (const DatabaseError&) {  // a folder that may only be read, or damage: then from a copy in memory
   }
   const auto from_copy = [&] {
-    std::vector<Message> left_out;
+    Damages left_out;
     Database copy = Database::from_image(read_session_image(places.database(), left_out), places.database());
-    Findings read = findings_of(FindingKind::file_unreadable, left_out);
+    Findings read;
+    for (const Damage& d : left_out) read.push_back(finding<FindingKind::read_failed>(d.message()));
     try {
       LedgerContent c = read_content(copy, places.database(), AskWitness::no);
       append(read, c.findings);
@@ -252,7 +239,7 @@ LedgerContent read_ledger(const LedgerPlaces& places, AskWitness ask) {
     } catch (const DatabaseError& e) {
       LedgerContent damaged;
       damaged.findings = schema_findings(copy);  // the cause, when tables were altered
-      if (damaged.findings.empty()) damaged.findings.push_back({FindingKind::file_unreadable, e.message()});
+      if (damaged.findings.empty()) damaged.findings.push_back(finding<FindingKind::read_failed>(e.message()));
       return damaged;
     }
   };

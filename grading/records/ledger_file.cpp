@@ -49,13 +49,12 @@ void check_schema(Database& db, Findings& findings) {
   for (const auto& [name, sql] : wanted) {
     const auto is = found.find(name);
     if (is == found.end())
-      findings.push_back({FindingKind::schema_differs, msg("{}: was taken out of the ledger's file", name)});
+      findings.push_back(finding<FindingKind::schema_missing>(name));
     else if (is->second != sql)
-      findings.push_back({FindingKind::schema_differs, msg("{}: is not as this program made it; it was altered", name)});
+      findings.push_back(finding<FindingKind::schema_differs>(name));
   }
   for (const auto& [name, sql] : found)
-    if (!wanted.contains(name))
-      findings.push_back({FindingKind::schema_differs, msg("{}: does not belong to a ledger; it was put into its file", name)});
+    if (!wanted.contains(name)) findings.push_back(finding<FindingKind::schema_added>(name));
 }
 
 Findings schema_findings(Database& db) noexcept {

@@ -63,40 +63,33 @@ json make_receipt(const LedgerContent& content, std::uint64_t seq, std::uint64_t
 
 Findings check_receipt(const json& receipt, const std::string& public_key, const LedgerContent* ledger) {
   Findings findings;
-  if (!receipt.is_object())
-    return {
-        {FindingKind::malformed, msg("is no receipt, for it is not JSON text of an object: name a file that `cavum ledger add --receipts` wrote")}};
+  if (!receipt.is_object()) return {finding<FindingKind::no_receipt>()};
   try {
     const std::string id = receipt.at("ledger"), key = receipt.at("public_key"), entry = receipt.at("entry");
     const Checkpoint p = checkpoint_in(receipt.at("checkpoint"), id, key, "receipt");
     const auto path = hashes_in(receipt.at("inclusion"), "receipt: inclusion");
     if (ledger != nullptr ? key != ledger->key_of(p.size) : !public_key.empty() && key != public_key)
-      findings.push_back({FindingKind::other_school, msg("the receipt is of another school's key")});
-    if (!is_signed_by_school(id, key, p))
-      findings.push_back({FindingKind::signature_invalid, msg("the school's signature on the receipt does not hold")});
+      findings.push_back(finding<FindingKind::receipt_other_school>());
+    if (!is_signed_by_school(id, key, p)) findings.push_back(finding<FindingKind::receipt_signature>());
     if (!is_included(leaf_hash(ledger_bytes(entry)), require_whole<std::uint64_t>(receipt, "seq", "receipt"), p.size, path, p.root))
-      findings.push_back({FindingKind::tree_differs, msg("the entry on the receipt is not the one that the school signed")});
+      findings.push_back(finding<FindingKind::receipt_entry>());
     if (const json& consistency = member_of(receipt, "consistency"); !consistency.is_null()) {
       const Checkpoint from = checkpoint_in(consistency.at("from"), id, key, "receipt: consistency");
-      if (!is_signed_by_school(id, key, from))
-        findings.push_back({FindingKind::signature_invalid, msg("the school's signature under the earlier entries does not hold")});
+      if (!is_signed_by_school(id, key, from)) findings.push_back(finding<FindingKind::receipt_earlier_signature>());
       if (!is_consistent(from.size, from.root, p.size, p.root, hashes_in(consistency.at("proof"), "receipt: consistency")))
-        findings.push_back({FindingKind::tree_differs, msg("the earlier entries on the receipt are not the beginning of the later ones")});
+        findings.push_back(finding<FindingKind::receipt_earlier>());
     }
     if (ledger != nullptr) {
       const History history(*ledger);
       if (check_history(history, id, p, msg("the receipt"), findings) == Standing::loss_on_record && !is_filed_again(*ledger, entry))
-        findings.push_back(
-            {FindingKind::restored, msg("the entry on the receipt was lost when the ledger went on from a backup (entry {}): file its session again",
-                                        history.recorded_loss(p)->seq)});
+        findings.push_back(finding<FindingKind::receipt_lost>(history.recorded_loss(p)->seq));
     }
   } catch (const json::exception&) {
-    findings.push_back(
-        {FindingKind::malformed, msg("is no receipt: a part of it is missing or of another kind than `cavum ledger add --receipts` writes")});
+    findings.push_back(finding<FindingKind::receipt_part>());
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
-    findings.push_back({FindingKind::malformed, msg("is no receipt: {}", said_by(e))});
+    findings.push_back(finding<FindingKind::receipt_unreadable>(said_by(e)));
   }
   return findings;
 }

@@ -44,22 +44,22 @@ bool contest_each_other(const FiledSession& a, const FiledSession& b) {
   return std::find(a.contested_by.begin(), a.contested_by.end(), b.seq) != a.contested_by.end();
 }
 
-/// Why a release of these results is none for a session; empty: it is one.
-Message why_void(const Registry& r, const FiledSession& s, const std::set<std::uint64_t>& results) {
-  if (const FiledSession* other = r.chosen_instead_of(s)) return msg("entry {}, another ending of the same exam, was chosen before", other->seq);
-  if (s.made_up_by) return msg("the makeup sitting of entry {} counts in its place", *s.made_up_by);
-  if (const FiledSession* other = r.shown_beside(s)) return msg("entry {}, another sitting of the same exam, is released", other->seq);
+/// Why a release of these results is none for a session; none: it is one.
+std::optional<Finding> why_void(const Registry& r, const FiledSession& s, const std::set<std::uint64_t>& results) {
+  if (const FiledSession* other = r.chosen_instead_of(s)) return finding<FindingKind::release_other_chosen>(s.seq, other->seq);
+  if (s.made_up_by) return finding<FindingKind::release_made_up>(s.seq, *s.made_up_by);
+  if (const FiledSession* other = r.shown_beside(s)) return finding<FindingKind::release_other_sitting>(s.seq, other->seq);
   const bool both = std::any_of(r.sessions.begin(), r.sessions.end(),
                                 [&](const FiledSession& o) { return contest_each_other(s, o) && results.contains(o.result_seq); });
-  return both ? msg("it names two endings of the same exam, and one counts: choose it with --session") : Message();
+  return both ? std::optional(finding<FindingKind::release_void>(s.seq)) : std::nullopt;
 }
 
 /// What the entry `seq` releases, `results`: of several endings of one exam one, and once a person has chosen, that one.
 void release(Registry& r, std::uint64_t seq, std::int64_t utc_ns, const std::set<std::uint64_t>& results) {
   for (auto& s : r.sessions) {
     if (!results.contains(s.result_seq)) continue;
-    if (const Message why = why_void(r, s, results); !why.empty()) {
-      r.remarks.push_back({FindingKind::release_void, msg("entry {}: has not released entry {}, for {}", seq, s.seq, why), seq});
+    if (const auto why = why_void(r, s, results)) {
+      r.remarks.push_back(why->in_entry(seq));
       continue;
     }
     for (auto& o : r.sessions)  // released before anybody knew of this ending
@@ -164,13 +164,14 @@ class RegistryReader {
     try {
       std::visit(*this, *e.what);
     } catch (const std::out_of_range&) {
-      say(msg("speaks of an entry that is not there"));
+      say(finding<FindingKind::entry_unknown>());
     } catch (const Error& error) {
-      say(error.message(), error.code() == LedgerError::bad_signature ? FindingKind::signature_invalid : FindingKind::entry_contradicts);
+      say(error.code() == LedgerError::bad_signature ? finding<FindingKind::entry_signature>(error.message())
+                                                     : finding<FindingKind::entry_contradicts>(error.message()));
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
-      say(said_by(error));
+      say(finding<FindingKind::entry_contradicts>(said_by(error)));
     }
   }
   [[nodiscard]] const Registry& so_far() const noexcept { return r_; }
@@ -186,21 +187,21 @@ class RegistryReader {
     IssuedTicket t{e_->seq, what.ticket, {}, {}, {}};
     t.first_sitting = e_->seq;
     if (what.makes_up) make_up(*what.makes_up, t);
-    if (!by_nonce_.emplace(t.ticket.nonce, r_.tickets.size()).second) say(msg("a ticket with a number that another one has"));
+    if (!by_nonce_.emplace(t.ticket.nonce, r_.tickets.size()).second) say(finding<FindingKind::ticket_number_taken>());
     by_ticket_[e_->seq] = r_.tickets.size();
     r_.tickets.push_back(std::move(t));
   }
 
   void operator()(const SeatsEntry& what) {
     for (const Seat& seat : what.seats) {
-      if (!seat.station.empty() && r_.stations.of(seat.station) == nullptr) say(msg("seats a candidate at a station that is not enrolled"));
+      if (!seat.station.empty() && r_.stations.of(seat.station) == nullptr) say(finding<FindingKind::seat_unknown>());
       r_.tickets.at(by_ticket_.at(seat.ticket)).seat = seat.station;
     }
   }
 
   void operator()(const CancelEntry& what) {
     IssuedTicket& t = r_.tickets.at(by_ticket_.at(what.ticket));
-    if (t.used_by || t.cancelled_by) say(msg("cancels a ticket that was used or cancelled before"));
+    if (t.used_by || t.cancelled_by) say(finding<FindingKind::cancels_void>());
     if (!t.cancelled_by) {
       t.cancelled_by = e_->seq;
       unmake(t);
@@ -220,8 +221,8 @@ class RegistryReader {
     require_signed(b, what.signature, content_->key_of(e_->seq + 1), msg("word to begin"));
     IssuedTicket& t = r_.tickets.at(by_nonce_.at(b.ticket));
     constexpr std::int64_t k_moment_ns = 60'000'000'000;
-    if (std::abs(b.utc_ns - e_->utc_ns) > k_moment_ns) say(msg("lets an exam begin at another time than it was entered"));
-    if (b.ledger != content_->id) say(msg("lets an exam of another ledger begin"));
+    if (std::abs(b.utc_ns - e_->utc_ns) > k_moment_ns) say(finding<FindingKind::begins_otherwise>());
+    if (b.ledger != content_->id) say(finding<FindingKind::begins_other_ledger>());
     t.begins.push_back({e_->seq, b.nonce, b.utc_ns});
   }
 
@@ -242,7 +243,8 @@ class RegistryReader {
     s.grading_version = what.grading_version;
     s.simulated = what.simulated;
     s.findings = what.findings;
-    if (!chains_.insert(s.chain_sha256).second && s.findings.empty()) say(msg("a session that was entered before"), FindingKind::submitted_twice);
+    if (const auto [chain, first] = chains_.emplace(s.chain_sha256, s.seq); !first && s.findings.empty())
+      say(finding<FindingKind::submitted_twice>(chain->second));
     if (!s.nonce.empty() && s.findings.empty()) use_ticket(s);
     if (const auto t = by_nonce_.find(s.nonce); t != by_nonce_.end()) {
       const IssuedTicket& ticket = r_.tickets[t->second];
@@ -270,7 +272,7 @@ class RegistryReader {
     const std::set<std::uint64_t> results(what.results.begin(), what.results.end());
     for (const auto seq : results)
       if (std::none_of(r_.sessions.begin(), r_.sessions.end(), [&](const FiledSession& s) { return s.result_seq == seq; }))
-        say(msg("releases a result that does not count"));
+        say(finding<FindingKind::releases_void>());
     release(r_, e_->seq, e_->utc_ns, results);
   }
 
@@ -278,7 +280,7 @@ class RegistryReader {
     for (const auto seq : std::set<std::uint64_t>(what.results.begin(), what.results.end())) {
       const auto s = std::find_if(r_.sessions.begin(), r_.sessions.end(), [&](const FiledSession& one) { return one.shown_seq == seq; });
       if (s == r_.sessions.end() || seq == 0) {
-        say(msg("takes back a result that is not released"));
+        say(finding<FindingKind::retracts_void>());
         continue;
       }
       s->released = false, s->shown = json(), s->shown_seq = 0, s->released_utc_ns = 0;
@@ -289,7 +291,7 @@ class RegistryReader {
 
   void operator()(const AppealEntry& what) {
     FiledSession& s = session(what.session);
-    if (s.open_appeal() != nullptr) say(msg("an appeal beside one that is open"));
+    if (s.open_appeal() != nullptr) say(finding<FindingKind::appeal_beside>());
     s.appeals.push_back({e_->seq, e_->utc_ns, e_->by.reason, {}, {}, {}});
   }
   void operator()(const AnswerEntry& what) {
@@ -298,12 +300,12 @@ class RegistryReader {
       a.closed_by = e_->seq, a.outcome = what.outcome, a.answer = e_->by.reason;
       return;
     }
-    say(msg("answers an appeal that is not open"));
+    say(finding<FindingKind::answers_void>());
   }
 
   void operator()(const PassbackEntry& what) {
     const FiledSession& s = session(what.session);
-    if (what.result != 0 && what.result != s.seq && s.regrade(what.result) == nullptr) say(msg("sends a result that is not the session's"));
+    if (what.result != 0 && what.result != s.seq && s.regrade(what.result) == nullptr) say(finding<FindingKind::sends_void>());
     r_.passbacks.push_back(what);
   }
 
@@ -321,24 +323,21 @@ class RegistryReader {
   void operator()(const RoomEntry& what) { take_room(r_.stations, what); }
 
  private:
-  void say(const Message& what, FindingKind kind = FindingKind::entry_contradicts) {
-    r_.findings.push_back({kind, msg("entry {}: {}", e_->seq, what), e_->seq});
-  }
+  void say(const Finding& what) { r_.findings.push_back(what.in_entry(e_->seq)); }
   FiledSession& session(std::uint64_t seq) { return r_.sessions.at(by_session_.at(seq)); }
 
   /// Of the first sitting nothing counts from now on.
   void make_up(const MakesUp& what, IssuedTicket& t) {
     IssuedTicket& first = r_.tickets.at(by_ticket_.at(what.ticket));
-    if (first.ticket.candidate != t.ticket.candidate || first.ticket.exam != t.ticket.exam)
-      say(msg("makes up another candidate's ticket, or one of another exam"));
-    if (first.made_up_by) say(msg("makes up a ticket that another one makes up"));
+    if (first.ticket.candidate != t.ticket.candidate || first.ticket.exam != t.ticket.exam) say(finding<FindingKind::makes_up_other>());
+    if (first.made_up_by) say(finding<FindingKind::makes_up_twice>());
     first.made_up_by = e_->seq;
     t.makes_up = what;
     t.why = e_->by.reason;
     t.first_sitting = first.first_sitting;
     for (auto& s : r_.sessions) {
       if (s.nonce.empty() || s.nonce != first.ticket.nonce) continue;
-      if (s.shown_seq != 0) say(msg("makes up a sitting whose result is released"));
+      if (s.shown_seq != 0) say(finding<FindingKind::makes_up_released>());
       s.made_up_by = e_->seq;
     }
   }
@@ -365,11 +364,11 @@ class RegistryReader {
 
   void use_ticket(const FiledSession& s) {
     const auto found = by_nonce_.find(s.nonce);
-    if (found == by_nonce_.end()) return say(msg("a session with a ticket that was not issued"), FindingKind::ticket_unknown);
+    if (found == by_nonce_.end()) return say(finding<FindingKind::entered_ticket_unknown>());
     IssuedTicket& t = r_.tickets[found->second];
-    if (t.used_by) return say(msg("a ticket that was used before"), FindingKind::ticket_used);
-    if (t.cancelled_by) say(msg("a ticket that was cancelled by entry {}", *t.cancelled_by), FindingKind::ticket_cancelled);
-    if (t.made_up_by) say(msg("a ticket that entry {} makes up", *t.made_up_by), FindingKind::ticket_made_up);
+    if (t.used_by) return say(finding<FindingKind::ticket_used>(*t.used_by));
+    if (t.cancelled_by) say(finding<FindingKind::entered_ticket_cancelled>(*t.cancelled_by));
+    if (t.made_up_by) say(finding<FindingKind::entered_ticket_made_up>(*t.made_up_by));
     t.used_by = e_->seq;
   }
 
@@ -378,7 +377,7 @@ class RegistryReader {
   Registry r_;
   std::map<std::uint64_t, std::size_t> by_session_, by_ticket_;  // by their entries
   std::map<std::string, std::size_t> by_nonce_;                  // tickets
-  std::set<std::string> chains_;
+  std::map<std::string, std::uint64_t> chains_;                  // first entries of recordings
 };
 
 Registry read_registry(const LedgerContent& content) {

@@ -49,12 +49,9 @@ void read_school_keys(LedgerContent& c) {
       if (is_signed_by_key_before(*key, c.id, c.keys.back().public_key))
         c.keys.push_back({e.seq + 1, key->public_key, key->until_utc_ns});
       else
-        c.findings.push_back(
-            {FindingKind::signature_invalid, msg("entry {}: names a key that the school's key before it has not signed", e.seq), e.seq});
+        c.findings.push_back(finding<FindingKind::key_unsigned>().in_entry(e.seq));
     } else if (const SchoolKey& k = c.keys.back(); k.until_utc_ns > 0 && e.utc_ns > k.until_utc_ns) {
-      c.findings.push_back(
-          {FindingKind::key_run_out,
-           msg("entry {}: was entered on {}, and the school's key had run out on {}", e.seq, utc_text(e.utc_ns), utc_text(k.until_utc_ns)), e.seq});
+      c.findings.push_back(finding<FindingKind::key_run_out>(utc_text(e.utc_ns), utc_text(k.until_utc_ns)).in_entry(e.seq));
     }
   }
   c.public_key = c.keys.back().public_key;

@@ -112,15 +112,13 @@ const Station* StationRegister::of(const std::string& key) const {
 
 std::optional<Finding> StationRegister::problem(const std::string& key, std::int64_t closed_utc_ns, std::int64_t received_utc_ns) const {
   const Station* s = of(key);
-  if (key.empty()) return Finding{FindingKind::station_unknown, msg("the recording names no station's key: anybody can make such a recording")};
-  if (s == nullptr)
-    return Finding{FindingKind::station_unknown, msg("the station with the key {} is not enrolled: anybody can make such a recording", key)};
+  if (key.empty()) return finding<FindingKind::station_unnamed>();
+  if (s == nullptr) return finding<FindingKind::station_unknown>(key);
   if (s->revoked_utc_ns && received_utc_ns > *s->revoked_utc_ns)
-    return Finding{FindingKind::station_revoked,
-                   s->replaced_by.empty() ? msg("the key of station '{}' was revoked on {}", s->name, utc_text(*s->revoked_utc_ns))
-                                          : msg("the key of station '{}' was replaced, and good until {}", s->name, utc_text(*s->revoked_utc_ns))};
+    return s->replaced_by.empty() ? finding<FindingKind::station_revoked>(s->name, utc_text(*s->revoked_utc_ns))
+                                  : finding<FindingKind::station_replaced>(s->name, utc_text(*s->revoked_utc_ns));
   if (s->until_utc_ns > 0 && (closed_utc_ns > s->until_utc_ns || received_utc_ns > s->until_utc_ns + k_late_ns))
-    return Finding{FindingKind::station_run_out, msg("the key of station '{}' ran out on {}", s->name, utc_text(s->until_utc_ns))};
+    return finding<FindingKind::station_run_out>(s->name, utc_text(s->until_utc_ns));
   return {};
 }
 

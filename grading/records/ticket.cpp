@@ -78,35 +78,22 @@ Ticket parse_ticket(const std::string& text, const std::string& public_key, cons
   return t;
 }
 
-namespace {
-
-FindingKind kind_of(const std::string& artifact) {
-  if (artifact == "start_tooth.cvt") return FindingKind::ticket_tooth;
-  if (artifact == "force_model.toml") return FindingKind::ticket_model;
-  return artifact.starts_with("bur_") ? FindingKind::ticket_bur : FindingKind::ticket_scenario;
-}
-
-}  // namespace
-
 Findings check_ticket(const Ticket& t, const SessionSetup& setup, std::int64_t begun_utc_ns) {
   Findings findings;
-  if (setup.candidate != t.candidate)
-    findings.push_back({FindingKind::ticket_candidate, msg("the ticket is candidate {}'s, the exam was sat by {}", t.candidate, setup.candidate)});
+  if (setup.candidate != t.candidate) findings.push_back(finding<FindingKind::ticket_candidate>(t.candidate, setup.candidate));
   const auto examined = examined_artifacts(setup);
   for (const auto& [name, hash] : t.artifacts) {
     const auto found = examined.find(name);
     if (found == examined.end())
-      findings.push_back({kind_of(name), msg("the ticket promises {}, which the exam does not have", name)});
+      findings.push_back(finding<FindingKind::ticket_artifact_missing>(name));
     else if (found->second != hash)
-      findings.push_back({kind_of(name), msg("{} is not the one that the ticket promises", name)});
+      findings.push_back(finding<FindingKind::ticket_artifact>(name));
   }
   for (const auto& [name, hash] : examined)
-    if (!t.artifacts.contains(name)) findings.push_back({kind_of(name), msg("the exam has {}, of which the ticket says nothing", name)});
-  if (accommodations_in(setup) != t.grant)
-    findings.push_back({FindingKind::ticket_accommodations, msg("the accommodations are not those that the ticket grants")});
+    if (!t.artifacts.contains(name)) findings.push_back(finding<FindingKind::ticket_artifact_added>(name));
+  if (accommodations_in(setup) != t.grant) findings.push_back(finding<FindingKind::ticket_accommodations>());
   if (begun_utc_ns < t.not_before_utc_ns || begun_utc_ns > t.not_after_utc_ns)
-    findings.push_back({FindingKind::ticket_time, msg("the exam began on {}, and the ticket is good from {} to {}", utc_text(begun_utc_ns),
-                                                      utc_text(t.not_before_utc_ns), utc_text(t.not_after_utc_ns))});
+    findings.push_back(finding<FindingKind::ticket_time>(utc_text(begun_utc_ns), utc_text(t.not_before_utc_ns), utc_text(t.not_after_utc_ns)));
   return findings;
 }
 

@@ -35,7 +35,7 @@ std::vector<Checkpoint> read_witness(const std::string& id, Findings& findings) 
     try {
       p.root = fixed_from_hex<32>(root, path);
     } catch (const Error&) {
-      findings.push_back({FindingKind::witness_changed, msg("{}: the witness was changed at entry {}", path, p.size)});
+      findings.push_back(finding<FindingKind::witness_changed>(path, p.size));
       break;
     }
     out.push_back(p);

@@ -1,12 +1,9 @@
 #include "grading/result/finding.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "engine/base/error.h"
-#include "engine/base/json_fields.h"
-#include "engine/base/message_json.h"
 #include "grading/result/result_json.h"
 
 namespace cavum::grading {
@@ -35,24 +32,14 @@ Fact fact_of(const Finding& f) {
   return fact;
 }
 
-nlohmann::ordered_json to_json(const Finding& f) {
-  nlohmann::ordered_json values = nlohmann::ordered_json::object();
-  for (std::size_t i = 0; i < f.values.size(); ++i) values[f.row().values[i]] = encode(f.values[i]);
-  return {{"kind", f.row().name}, {"values", values}};
-}
+nlohmann::ordered_json to_json(const Finding& f) { return encode(f.row(), f.values); }
 
 Finding finding_in(const nlohmann::json& json) {
-  const auto& values = member_of(json, "values");
-  const std::string name = text_in(json, "kind");
-  const auto* const row = std::find_if(std::begin(k_findings), std::end(k_findings), [&](const FindingRow& r) { return name == r.name; });
-  if (row == std::end(k_findings) || !values.is_object() || values.size() != row->count()) refuse();
-  Finding f{static_cast<FindingKind>(row - k_findings), {}};
   try {
-    for (std::size_t i = 0; i < row->count(); ++i) f.values.push_back(decode_value(member_of(values, row->values[i])));
+    return {decode_fact<FindingKind>(json)};
   } catch (const std::invalid_argument&) {
     refuse();
   }
-  return f;
 }
 
 Findings findings_in(const nlohmann::json& list) {

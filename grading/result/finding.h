@@ -2,15 +2,15 @@
 // for the kind, and only a face puts it into words. One table has all kinds.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
-#include <string_view>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "engine/base/fact.h"
+#include "engine/base/fact_table.h"
 
 namespace cavum::grading {
 
@@ -144,39 +144,22 @@ enum class FindingKind : std::uint8_t {
 #undef CAVUM_FINDING_KIND
 };
 
-struct FindingRow {
-  std::string_view name;
-  Concerns concerns;
-  const char* english;
-  std::array<const char*, 6> values;  ///< their names; those beyond the sentence's gaps are for programs alone
-  [[nodiscard]] constexpr std::size_t count() const noexcept {
-    std::size_t n = 0;
-    while (n < values.size() && values[n] != nullptr) ++n;
-    return n;
-  }
-  /// Of the sentence: as many of the values, the first ones, stand in it.
-  [[nodiscard]] constexpr std::size_t gaps() const noexcept {
-    std::size_t n = 0;
-    for (const char* c = english; *c != 0; ++c) n += *c == '{' ? 1 : 0;
-    return n;
-  }
-};
-inline constexpr FindingRow k_findings[] = {
-#define CAVUM_FINDING_ROW(KIND, CONCERNS, ENGLISH, ...) {#KIND, Concerns::CONCERNS, ENGLISH, {__VA_ARGS__}},
+inline constexpr FactRow k_findings[] = {
+#define CAVUM_FINDING_ROW(KIND, CONCERNS, ENGLISH, ...) {#KIND, static_cast<std::size_t>(FindingKind::KIND), ENGLISH, {__VA_ARGS__}},
     CAVUM_FINDINGS(CAVUM_FINDING_ROW)
 #undef CAVUM_FINDING_ROW
 };
+[[nodiscard]] constexpr std::span<const FactRow> rows_of(FindingKind) { return k_findings; }
+inline constexpr Concerns k_finding_concerns[] = {
+#define CAVUM_FINDING_CONCERNS(KIND, CONCERNS, ...) Concerns::CONCERNS,
+    CAVUM_FINDINGS(CAVUM_FINDING_CONCERNS)
+#undef CAVUM_FINDING_CONCERNS
+};
 
-struct Finding {
-  FindingKind kind{};
-  std::vector<Value> values;  ///< as many as its row names
-
-  [[nodiscard]] const FindingRow& row() const noexcept { return k_findings[static_cast<std::size_t>(kind)]; }
+struct Finding : TableFact<FindingKind> {
+  [[nodiscard]] Concerns concerns() const noexcept { return k_finding_concerns[static_cast<std::size_t>(kind)]; }
   /// Leaves the verdict to an examiner.
-  [[nodiscard]] bool asks_examiner() const noexcept { return row().concerns == Concerns::examiner; }
-  [[nodiscard]] Message message() const {
-    return {row().english, nullptr, 0, {values.begin(), values.begin() + static_cast<std::ptrdiff_t>(row().gaps())}};
-  }
+  [[nodiscard]] bool asks_examiner() const noexcept { return concerns() == Concerns::examiner; }
   friend bool operator==(const Finding&, const Finding&) = default;
 };
 using Findings = std::vector<Finding>;
@@ -191,13 +174,12 @@ namespace finding_detail {
 /// A finding of this kind: the compiler counts its values.
 template <FindingKind kind, class... A>
 [[nodiscard]] Finding finding(A&&... values) {
-  static_assert(sizeof...(A) == k_findings[static_cast<std::size_t>(kind)].count(), "the kind has another number of values");
-  return {kind, {finding_detail::as_sealed(message_detail::value_of(std::forward<A>(values)))...}};
+  return {fact_of<kind>(finding_detail::as_sealed(message_detail::value_of(std::forward<A>(values)))...)};
 }
 
 /// With its words.
 [[nodiscard]] Fact fact_of(const Finding& finding);
-/// {"kind", "values"}: each value by its name as decode_value reads it. No words: what is sealed and compared.
+/// {"kind", "values"}. No words: what is sealed and compared.
 [[nodiscard]] nlohmann::ordered_json to_json(const Finding& finding);
 /// Reads what to_json wrote. Throws Error for anything else.
 [[nodiscard]] Finding finding_in(const nlohmann::json& json);

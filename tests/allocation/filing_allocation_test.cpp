@@ -57,18 +57,18 @@ class FilingWithoutMemory : public testing::Test {
     }
     const std::uint64_t requests = testing_allocation::end_counting();
     const std::string at = "request " + std::to_string(n) + ": ";
-    if (filing && !filing->findings.empty()) return {at + "a sound exam is refused: " + english_text(filing->findings[0].what), requests};
+    if (filing && !filing->findings.empty()) return {at + "a sound exam is refused: " + english_text(filing->findings[0].message()), requests};
     if (!filing && said.find("; ") == std::string::npos) return {at + "does not say what to do: " + said, requests};
     if (!filing && said.find("memory") == std::string::npos) return {at + "does not say that memory is short: " + said, requests};
     const records::LedgerCheck check = records::check_ledger(places, false);
-    if (!check.findings.empty()) return {at + "the ledger does not hold: " + english_text(check.findings[0].what) + " (" + said + ")", requests};
+    if (!check.findings.empty()) return {at + "the ledger does not hold: " + english_text(check.findings[0].message()) + " (" + said + ")", requests};
     auto now = texts_of(records::read_ledger(places));
     if (!filing && now != before_) return {at + "the ledger was changed, and yet: " + said, requests};
     if (!filing) {
       keep_memory_reserve();  // the next program
       records::Ledger ledger(folder, records::load_school_key(records::school_key_path()));
       const records::Filing again = records::file_session(ledger, exam, {}, grounds_);
-      if (!again.seq) return {at + "afterwards it cannot be filed: " + english_text(again.findings[0].what), requests};
+      if (!again.seq) return {at + "afterwards it cannot be filed: " + english_text(again.findings[0].message()), requests};
       now = texts_of(records::read_ledger(places));
     }
     if (now.size() != before_.size() + 1 || !records::check_ledger(places, false).findings.empty()) return {at + "it was not filed", requests};

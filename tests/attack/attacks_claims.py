@@ -19,25 +19,25 @@ def own_scenario(r):
     return r.artifact("scenario.toml").decode()
 
 
-@attack("claim", FOUND, TICKET, "ticket_scenario", "scenario.toml")
+@attack("claim", FOUND, TICKET, "ticket_artifact", "scenario.toml")
 def easier_scenario(s):
     """The scenario gives full points from 10 % on; mark and hashes are made anew."""
     return insider(s, lambda r: r.set_artifact("scenario.toml", own_scenario(r).replace("full = 90", "full = 10").replace("zero = 60", "zero = 1").encode()))
 
 
-@attack("claim", FOUND, TICKET, "ticket_model", "force_model.toml")
+@attack("claim", FOUND, TICKET, "ticket_artifact", "force_model.toml")
 def softer_model(s):
     """The force model has one more line."""
     return insider(s, lambda r: r.set_artifact("force_model.toml", r.artifact("force_model.toml") + b"\n# softer\n"))
 
 
-@attack("claim", FOUND, TICKET, "ticket_bur", "bur_001")
+@attack("claim", FOUND, TICKET, "ticket_artifact", "bur_001")
 def another_bur(s):
     """A bur of the tray has one more line."""
     return insider(s, lambda r: r.set_artifact("bur_001.toml", r.artifact("bur_001.toml") + b"\n# sharper\n"))
 
 
-@attack("claim", FOUND, TICKET, "ticket_scenario", "rubric.toml")
+@attack("claim", FOUND, TICKET, "ticket_artifact", "rubric.toml")
 def a_rubric_slipped_in(s):
     """A rubric of one's own beside the scenario's."""
     def change(r):
@@ -46,7 +46,7 @@ def a_rubric_slipped_in(s):
     return insider(s, change)
 
 
-@attack("claim", FOUND, TICKET, "ticket_scenario", "attachment/")
+@attack("claim", FOUND, TICKET, "ticket_artifact", "attachment/")
 def an_attachment_slipped_in(s):
     """An attachment that the ticket does not know, whose name leads out of the folder."""
     return insider(s, lambda r: r.artifacts.insert(len(r.artifacts) - 1, ["attachment/../../../planted.stl", b"solid x\nendsolid x\n"]))

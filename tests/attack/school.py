@@ -44,7 +44,7 @@ class Result:
         return [f for part in [told, *told.get("sessions", [])] for f in part.get(of, [])]
 
     def kinds(self, of="findings"):
-        return {f["kind"] for f in self.said(of)}
+        return {f["group"] for f in self.said(of)}
 
     def first(self):
         """The first finding, or the first line of all."""

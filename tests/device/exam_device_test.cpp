@@ -155,7 +155,8 @@ TEST_F(ExamDevice, StoppedForFourSecondsTheLostTimeStandsInItsResultAndNothingIs
   const auto result = nlohmann::json::parse(session.result_json());
   const double made_up_s = RealTimeOptions{}.most_made_up * k_tick_s;  // ticks that are run at once after a pause: they count as time of the exam
   EXPECT_GE(result.value("lost_time_s", 0.0), k_stopped_s - made_up_s - k_tick_s) << "a stopped program gains no time unseen";
-  for (const auto& remark : check_clocks(session)) EXPECT_FALSE(remark.doubtful) << "what the recording owns up to is no finding: " << remark.what;
+  for (const auto& remark : check_clocks(session))
+    EXPECT_FALSE(remark.doubtful) << "what the recording owns up to is no finding: " << remark.message();
 }
 
 TEST_F(ExamDevice, GoesOnOnlyWithTheEncoderItWasBegunWith) {

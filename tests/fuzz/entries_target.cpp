@@ -70,7 +70,7 @@ std::vector<Bytes> entries_seeds() {
                      {"closed_utc_ns", 2},
                      {"nonce", std::string(32, '2')},
                      {"simulated", ""},
-                     {"findings", json::array({{{"kind", "ticket_time"}, {"say", "a finding"}}})},
+                     {"findings", json::array({{{"kind", "ticket_artifact"}, {"values", {{"artifact", "rubric.toml"}}}}})},
                      {"source", {{"kind", "device"}, {"name", "Omni"}, {"serial", "7"}}},
                      {"opened", parse_json_or_null(small_result())},
                      {"opens", {{"result", hash}}},

@@ -107,7 +107,7 @@ void fuzz_ledger(Data data) {
   write(places.database() + "-wal", files.log);
   try {
     if ((flags & 2) != 0) {
-      std::vector<Message> findings;
+      Damages findings;
       Database copy = Database::from_image(read_session_image(places.database(), findings), places.database());
       static_cast<void>(records::read_registry(records::read_content(copy, places.database(), records::AskWitness::no)));
     } else {

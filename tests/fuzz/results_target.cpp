@@ -34,7 +34,7 @@ std::vector<Bytes> results_seeds() {
   s.file_sha256 = s.chain_sha256 = std::string(64, 'a');
   s.result = s.filed = s.shown = parse_json_or_null(small_result());
   s.released = true;
-  s.findings = {{records::FindingKind::ticket_time, msg("a finding")}};
+  s.findings = {records::finding<records::FindingKind::ticket_artifact>("a finding")};
   registry.sessions.push_back(s);
   return {bytes_of(none), bytes_of(records::signed_results(registry, ledger))};
 }

@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
                   static_cast<long long>(report.ticks), static_cast<unsigned long long>(reader.chunks().back().state_hash),
                   cavum::to_hex(cavum::sha256(result)).c_str(), same ? "" : " GRADED DIFFERENTLY");
       std::fprintf(stderr, "%s: %.0f times real time\n", argv[i], static_cast<double>(report.ticks) * 1e-3 / seconds);
-      for (const auto& f : report.findings) std::fprintf(stderr, "  %s\n", cavum::english_text(f.what).c_str());
+      for (const auto& f : report.findings) std::fprintf(stderr, "  %s\n", cavum::english_text(f.message()).c_str());
       good = good && report.verified && same;
     } catch (const std::exception& e) {
       std::printf("%s unreadable: %s\n", argv[i], e.what());

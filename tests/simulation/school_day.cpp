@@ -45,9 +45,9 @@ grading::ExamContexts& grounds() {
 bool names_clock(const records::Findings& findings, const SatExam& exam) {
   using Kind = records::FindingKind;
   return std::any_of(findings.begin(), findings.end(), [&](const records::Finding& f) {
-    if (exam.clock == WrongClock::uneven) return f.kind == Kind::clock;
-    return (f.kind == Kind::clock || f.kind == Kind::handed_in_late || f.kind == Kind::ticket_time) &&
-           tells(f.what, utc_text(exam.clock == WrongClock::behind ? exam.begun_utc_ns : exam.closed_utc_ns));
+    if (exam.clock == WrongClock::uneven) return f.group() == Kind::clock;
+    return (f.group() == Kind::clock || f.group() == Kind::handed_in_late || f.group() == Kind::ticket_time) &&
+           tells(f.message(), utc_text(exam.clock == WrongClock::behind ? exam.begun_utc_ns : exam.closed_utc_ns));
   });
 }
 
@@ -364,7 +364,7 @@ void SchoolDay::cosign_here() {
     cosigner_asks_since_.reset();
     if (!signed_note.findings.empty()) {
       // an older request that was overtaken by a newer one
-      if (signed_note.findings[0].kind != records::FindingKind::older_copy)
+      if (signed_note.findings[0].group() != records::FindingKind::older_copy)
         wrong("the cosigner refused an honest ledger: " + text_of(signed_note.findings));
       return;
     }

@@ -21,7 +21,7 @@ namespace cavum::records {
 /// What a day that went wrong is told by.
 inline std::string text_of(const Findings& findings) {
   std::string all;
-  for (const Finding& f : findings) all += english_text(f.what) + "\n";
+  for (const Finding& f : findings) all += english_text(f.message()) + "\n";
   return all;
 }
 }  // namespace cavum::records

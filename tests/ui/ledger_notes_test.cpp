@@ -145,7 +145,7 @@ TEST_F(LedgerNotes, ACosignerRefusesALedgerThatWasPutBack) {
   const auto found = run("ledger verify --json " + path("L") + " --cosigned " + path("n1"));
   EXPECT_EQ(found.exit_code, 1);
   const json finding = json::parse(found.out)["findings"].at(0);
-  EXPECT_EQ(finding["kind"], "older_copy");
+  EXPECT_EQ(finding["group"], "older_copy");
   for (const std::string& told : {path("n1"), std::string(" 3 "), std::string(" 4")})
     EXPECT_NE(finding.dump().find(told), std::string::npos) << finding;
   EXPECT_EQ(run("ledger add-cosignature " + path("L") + " " + path("n1")).exit_code, 1) << "it is not kept";
@@ -203,7 +203,7 @@ TEST_F(LedgerNotes, ABackupIsRestoredAndSaysWhatWasLost) {
   const json done = run_json(restore + " --accept-loss 'the disk died'");
   EXPECT_EQ(done["restored"], true);
   const json remark = run_json("ledger verify " + path("L2"))["remarks"].at(0);
-  EXPECT_EQ(remark["kind"], "restored");
+  EXPECT_EQ(remark["group"], "restored");
   EXPECT_NE(remark["text"].get<std::string>().find("the disk died"), std::string::npos) << remark;
   EXPECT_NE(run("ledger candidates " + path("L2")).out.find("4711"), std::string::npos);
   EXPECT_EQ(run("ledger ticket " + path("L2") + " " + CAVUM_SOURCE_DIR + "/tests/replay/block_cavity.toml --candidate 4714" +

@@ -38,7 +38,7 @@ void measure_circuit(const CircuitArguments& o) {
   const records::LedgerPlaces places{o.folder};
   const records::LedgerContent content = records::read_ledger(places);
   if (!content.findings.empty())
-    throw Error(Name{o.folder}, msg("does not hold ({})", content.findings.front().what), msg("see `cavum ledger verify {}`", o.folder));
+    throw Error(Name{o.folder}, msg("does not hold ({})", content.findings.front().message()), msg("see `cavum ledger verify {}`", o.folder));
   const records::Registry registry = records::read_registry(content);
   records::Identities identities(places.identities());
   records::remove_forgotten(content, identities);

@@ -61,7 +61,7 @@ void report(const CohortArguments& o) {
   const records::LedgerPlaces places{o.folder};
   const records::LedgerContent content = records::read_ledger(places);
   if (!content.findings.empty())
-    throw Error(Name{o.folder}, msg("does not hold ({})", content.findings.front().what), msg("see `cavum ledger verify {}`", o.folder));
+    throw Error(Name{o.folder}, msg("does not hold ({})", content.findings.front().message()), msg("see `cavum ledger verify {}`", o.folder));
   const records::Registry registry = records::read_registry(content);
   std::vector<cohort::HumanMark> marks;
   if (!o.marks.empty()) {

@@ -49,7 +49,7 @@ int ledger_restore(const LedgerOptions& o) {
   }
   const auto n = static_cast<std::int64_t>(plan.content.entries.size());
   say(msgn("{}: a backup of {} entry", "{}: a backup of {} entries", n, o.folder, n));
-  for (const auto& f : plan.findings) say(msg("- {}", f.what), 2);
+  for (const auto& f : plan.findings) say(msg("- {}", f.message()), 2);
   for (const auto& l : plan.lost_entries) say(msg("- lost: {}", l), 2);
   for (const auto& m : plan.missing_sessions) say(msg("- session {}: its file is not in the backup, or was changed", m), 2);
   if (!plan.identities) say(msg("not in it: who is behind the pseudonyms; copy identities.db from where it is kept"), 2);

@@ -27,17 +27,16 @@ int ledger_verify(const LedgerOptions& o) {
   records::check_owner(check, places, content, o.key.empty() ? records::school_key_path() : o.key, records::school_public_key_path());
   for (const auto& path : o.receipts) {
     const json receipt = parse_json_or_null(read_text_file(path));
-    append(check.findings, named(Name{path}, records::check_receipt(receipt, content.public_key, &content)));
+    append(check.findings, named(path, records::check_receipt(receipt, content.public_key, &content)));
   }
   const auto cosigners = cosigners_of(o);
   records::check_cosignatures(content, cosigners, check.findings, check.not_checked);
   for (const auto& path : o.cosigned) {
     const auto note = records::check_cosigned(read_text_file(path), cosigners, content);
-    append(check.findings, named(Name{path}, note.findings));
-    append(check.not_checked, named(Name{path}, note.not_checked));
+    append(check.findings, named(path, note.findings));
+    append(check.not_checked, named(path, note.not_checked));
   }
-  if (!o.results.empty())
-    append(check.findings, named(Name{o.results}, records::check_results(read_text_file(o.results), content.public_key, &content)));
+  if (!o.results.empty()) append(check.findings, named(o.results, records::check_results(read_text_file(o.results), content.public_key, &content)));
   if (o.as_json) {
     print_json(json{{"verified", check.findings.empty()},
                     {"ledger", content.id},
@@ -54,9 +53,9 @@ int ledger_verify(const LedgerOptions& o) {
     const Message whose =
         content.public_key.empty() ? msg("{}, whose they are could not be read", entries) : msg("{}, key {}", entries, content.public_key);
     say(check.findings.empty() ? msg("{}: verified, {}", o.folder, whose) : msg("{}: NOT VERIFIED, {}", o.folder, whose));
-    for (const auto& f : check.findings) say(msg("- {}", f.what), 2);
-    for (const auto& m : check.not_checked) say(msg("not checked: {}", m.what), 2);
-    for (const auto& r : check.remarks) say(msg("({})", r.what), 2);
+    for (const auto& f : check.findings) say(msg("- {}", f.message()), 2);
+    for (const auto& m : check.not_checked) say(msg("not checked: {}", m.message()), 2);
+    for (const auto& r : check.remarks) say(msg("({})", r.message()), 2);
   }
   return check.findings.empty() ? 0 : 1;
 }
@@ -88,10 +87,9 @@ int ledger_show(const LedgerOptions& o) {
   append(findings, registry.findings);
   if (!findings.empty())
     say_error(
-        msgn("{0}: WARNING: this ledger does not hold, and what it shows may be made up ({1} finding: {2}); run `cavum ledger verify {0} --replay`",
-             "{0}: WARNING: this ledger does not hold, and what it shows may be made up ({1} findings, first: {2}); run `cavum ledger verify {0} "
-             "--replay`",
-             static_cast<std::int64_t>(findings.size()), o.folder, findings.size(), findings.front().what));
+        msg("{0}: WARNING: this ledger does not hold, and what it shows may be made up (findings: {1}, first: {2}); run `cavum ledger verify {0} "
+            "--replay`",
+            o.folder, findings.size(), findings.front().message()));
   const int code = findings.empty() ? 0 : 1;
   if (o.as_json) {
     json sessions = json::array();

@@ -67,7 +67,7 @@ int ledger_cosign(const LedgerOptions& o) {
     say(msg("this cosigner's key line, for $CAVUM_HOME/cosigners at the school: {}", key));
   } else {
     say(msg("{}: NOT COSIGNED", o.folder));
-    for (const auto& f : cosigned.findings) say(msg("- {}", f.what), 2);
+    for (const auto& f : cosigned.findings) say(msg("- {}", f.message()), 2);
   }
   return cosigned.findings.empty() ? 0 : 1;
 }
@@ -83,7 +83,7 @@ int ledger_add_cosignature(const LedgerOptions& o) {
           Name{path}, msg("bears no cosignature of a cosigner that is known here"),
           msg("put the key line that `cavum ledger cosign` shows into {}", (o.cosigners.empty() ? records::known_cosigners_path() : o.cosigners)));
     if (!note.findings.empty()) say(msg("{}: NOT KEPT", path));
-    for (const auto& f : note.findings) say(msg("- {}", f.what), 2);
+    for (const auto& f : note.findings) say(msg("- {}", f.message()), 2);
     all = all && note.findings.empty();
     if (!note.findings.empty()) continue;
     ledger.keep_cosignatures(note.checkpoint->size, note.cosignatures);

@@ -92,11 +92,11 @@ int ledger_add(const LedgerOptions& o) {
       throw;  // the disk: what was acknowledged stands, and nothing more can be
     } catch (const Error& e) {
       if (o.sessions.size() == 1 && !std::filesystem::is_directory(o.sessions[0])) throw;
-      filing.findings.push_back({records::FindingKind::file_unreadable, e.message()});
+      filing.findings.push_back(records::finding<records::FindingKind::read_failed>(e.message()));
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& e) {  // of this one recording: those after it are filed all the same
-      filing.findings.push_back({records::FindingKind::file_unreadable, msg("{}: cannot be filed ({}); use an intact copy", path, said_by(e))});
+      filing.findings.push_back(records::finding<records::FindingKind::file_unreadable>(said_by(e)));
     }
     all = all && filing.seq && filing.findings.empty();
     json one = {{"file", path}, {"filed", filing.seq.has_value()}, {"findings", filing.findings}};
@@ -107,7 +107,7 @@ int ledger_add(const LedgerOptions& o) {
     }
     if (!o.as_json) {
       say(filing.seq ? msg("{}: entry {}", path, *filing.seq) : msg("{}: NOT FILED", path));
-      for (const auto& f : filing.findings) say(msg("- {}", f.what), 2);
+      for (const auto& f : filing.findings) say(msg("- {}", f.message()), 2);
     }
     printed.push_back(std::move(one));
   }

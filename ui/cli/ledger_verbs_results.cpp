@@ -146,7 +146,7 @@ void ledger_decide(const LedgerOptions& o) {
   if (o.session_seq < 0) {
     const records::LedgerContent content = records::read_ledger({o.folder});
     if (!content.findings.empty())
-      throw Error(Name{o.folder}, msg("does not hold ({})", content.findings.front().what), msg("see `cavum ledger verify {}`", o.folder));
+      throw Error(Name{o.folder}, msg("does not hold ({})", content.findings.front().message()), msg("see `cavum ledger verify {}`", o.folder));
     const auto queue = records::review_queue(records::read_registry(content));
     json list = json::array();
     Lines rows;
@@ -195,7 +195,7 @@ namespace {
 void print_appeals(const LedgerOptions& o) {
   const records::LedgerContent content = records::read_ledger({o.folder});
   if (!content.findings.empty())
-    throw Error(Name{o.folder}, msg("does not hold ({})", content.findings.front().what), msg("see `cavum ledger verify {}`", o.folder));
+    throw Error(Name{o.folder}, msg("does not hold ({})", content.findings.front().message()), msg("see `cavum ledger verify {}`", o.folder));
   json list = json::array();
   Lines rows;
   std::int64_t open = 0;

@@ -50,7 +50,7 @@ Outcome verify_timed(const std::string& path, const std::string& station_key) {
     o.report = verify_session(path, station_key);
   } catch (const Error& e) {
     o.report.file = path;
-    o.report.findings.push_back({DamageKind::file, e.message()});
+    o.report.findings.push_back(damage<DamageKind::recording_unsound>(e.message()));
     o.unreadable = std::current_exception();
   }
   o.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -123,10 +123,11 @@ std::string to_junit(const std::vector<Outcome>& outcomes) {
       continue;
     }
     std::string lines;
-    for (const auto& f : o.report.findings) lines += english_text(f.what) + "\n";
+    for (const auto& f : o.report.findings) lines += english_text(f.message()) + "\n";
     const char* tag = o.readable() ? "failure" : "error";
-    out << ">\n    <" << tag << " message=\"" << xml_text(o.report.findings.empty() ? "not verified" : english_text(o.report.findings.front().what))
-        << "\">" << xml_text(lines) << "</" << tag << ">\n  </testcase>\n";
+    out << ">\n    <" << tag << " message=\""
+        << xml_text(o.report.findings.empty() ? "not verified" : english_text(o.report.findings.front().message())) << "\">" << xml_text(lines)
+        << "</" << tag << ">\n  </testcase>\n";
   }
   out << "</testsuite>\n</testsuites>\n";
   return out.str();
@@ -137,7 +138,7 @@ void print(const Outcome& o) {
   say(r.verified ? msg("{}: verified", r.file) : msg("{}: NOT VERIFIED", r.file));
   if (r.ticks_replayed > 0) say(msg("{} of {} ticks replayed, {} times real time", r.ticks_replayed, r.ticks, as_number(r.speed_x_realtime, 0)), 2);
   if (r.closed) say(msg("closed by station {}", r.station_key), 2);
-  for (const auto& f : r.findings) say(msg("- {}", f.what), 2);
+  for (const auto& f : r.findings) say(msg("- {}", f.message()), 2);
 }
 
 int run(const ReplayArguments& options) {

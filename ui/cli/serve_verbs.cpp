@@ -206,7 +206,7 @@ int office_file(const OfficeArguments& o) {
   if (!o.receipts.empty()) make_private_folder(o.receipts);
   bool all = true;
   for (const auto& path : session_files(o.sessions)) {
-    std::vector<Message> findings;
+    Damages findings;
     const Bytes image = read_session_image(path, findings);
     const std::string hash = to_hex(sha256(image));
     json state = client.handed(hash);

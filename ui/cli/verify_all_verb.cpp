@@ -141,8 +141,10 @@ Sums sums_of(const pool::Made& made) {
     const json line = parse_json_or_null(text, k_json_part);
     sums.ticks += whole_in(line, "ticks");
     const json& verified = member_of(line, "verified");
-    if (const auto said = pool::said_in(line); !said.empty())
-      sums.wrong.push_back(msg("{}: {}", text_in(line, "session"), said[0]));
+    if (const auto found = pool::findings_in(line); !found.empty())
+      sums.wrong.push_back(msg("{}: {}", text_in(line, "session"), found[0].message()));
+    else if (const Message error = pool::error_in(line); !error.empty())
+      sums.wrong.push_back(msg("{}: {}", text_in(line, "session"), error));
     else if (verified.is_boolean() && !verified.get<bool>())
       sums.wrong.push_back(msg("{}: does not hold", text_in(line, "session")));
     else
@@ -177,9 +179,9 @@ int tell(const VerifyAll& o, const pool::Work& work, const pool::Made& made, con
   for (std::size_t i = 0; i < sums.wrong.size() && i < k_named; ++i) say(msg("- {}", sums.wrong[i]), 2);
   if (sums.wrong.size() > k_named) say(msg("- and {} more, in the lines of --out", sums.wrong.size() - k_named), 2);
   if (ledger != nullptr) {
-    for (const auto& f : ledger->findings) say(msg("- {}", f.what), 2);
-    for (const auto& n : ledger->not_checked) say(msg("not checked: {}", n.what), 2);
-    for (const auto& r : ledger->remarks) say(msg("({})", r.what), 2);
+    for (const auto& f : ledger->findings) say(msg("- {}", f.message()), 2);
+    for (const auto& n : ledger->not_checked) say(msg("not checked: {}", n.message()), 2);
+    for (const auto& r : ledger->remarks) say(msg("({})", r.message()), 2);
   }
   if (made.spent.core_s > 0)
     say(msg("{} of exams in {} of a core: {} times real time", as_s(session_s, 0), as_s(made.spent.core_s, 1), as_number(real_time, 0)), 2);

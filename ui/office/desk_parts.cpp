@@ -33,7 +33,7 @@ std::vector<std::string> shown_each(const std::vector<Message>& messages) {
 
 std::vector<ShownFinding> shown_each(const records::Findings& findings) {
   std::vector<ShownFinding> shown;
-  for (const auto& f : findings) shown.push_back({f.kind, one_line(tr(f.what))});
+  for (const auto& f : findings) shown.push_back({f.kind, one_line(tr(f.message()))});
   return shown;
 }
 

@@ -35,21 +35,21 @@ constexpr std::size_t k_hash_letters = 64;
 Handed facts_of(const std::string& path) {
   constexpr std::size_t k_longest_candidate = 200;
   Handed facts;
-  std::vector<Message> left_out;
+  Damages left_out;
   try {
     const Bytes image = read_session_image(path, left_out);
     const SessionReader session(image, path);
     const bool closed = session.closed();
-    if (!closed && session.findings().empty()) facts.findings.push_back({FindingKind::not_closed, msg("was never closed")});
-    if (!closed && !session.findings().empty())
-      facts.findings.push_back({FindingKind::recording_unsound, msg("is damaged: {}", session.findings().front().what)});
+    if (!closed && session.findings().empty()) facts.findings.push_back(damage<DamageKind::not_closed>(session.ticks()));
+    if (!closed) append(facts.findings, session.findings());
     if (closed) facts.station = to_hex(session.seal()->public_key);
     const std::string candidate = session.setup().candidate;
     if (candidate.size() <= k_longest_candidate) facts.candidate = one_line(candidate);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
-    if (facts.findings.empty()) facts.findings = findings_of(FindingKind::file_unreadable, left_out.empty() ? std::vector{said_by(e)} : left_out);
+    if (facts.findings.empty()) append(facts.findings, left_out);
+    if (facts.findings.empty()) facts.findings.push_back(records::finding<FindingKind::file_unreadable>(said_by(e)));
   }
   return facts;
 }
@@ -136,7 +136,7 @@ Inbox::Inbox(std::string folder, std::string ledger_folder, SigningKey school, r
     try {
       h.findings = json_value_of<records::Findings>(member_of(kept, "findings"), {msg("the inbox"), {}});
     } catch (const Error&) {
-      h.findings = {{FindingKind::file_unreadable, msg("why it was refused cannot be read any more")}};
+      h.findings = {records::finding<FindingKind::refusal_unreadable>()};
     }
     const auto word = [&](const char* name) { return member_of(kept, name).is_string() ? member_of(kept, name).get<std::string>() : ""; };
     h.station = word("station");
@@ -258,7 +258,7 @@ bool Inbox::file(const std::string& hash) {
 
 void Inbox::refuse(const std::string& hash, Handed why) {
   why.state = Handed::State::refused;
-  for (records::Finding& f : why.findings) f.what = without_places(f.what, hash);
+  for (records::Finding& f : why.findings) f.values = without_places({"", nullptr, 0, f.values}, hash).values();
   if (const std::string sender = of(hash).station; !sender.empty()) why.station = sender;
   const json kept{{"findings", to_json_value(why.findings)}, {"station", why.station}, {"candidate", why.candidate}};
   write_private_text_file(fmt::format("{}/refused/{}.json", folder_, hash), kept.dump(1, ' ', false, json::error_handler_t::replace) + "\n");

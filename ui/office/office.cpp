@@ -31,7 +31,7 @@ namespace {
 /// As a station is told: it knows what to say in its own language of nothing but the state.
 std::vector<ShownFinding> english_each(const records::Findings& findings) {
   std::vector<ShownFinding> told;
-  for (const auto& f : findings) told.push_back({f.kind, english_text(f.what)});
+  for (const auto& f : findings) told.push_back({f.kind, english_text(f.message())});
   return told;
 }
 

@@ -231,7 +231,7 @@ std::vector<std::string> StationLink::recordings_left() {
 }
 
 bool StationLink::file(StationClient& client, const std::string& path) {
-  std::vector<Message> findings;
+  Damages findings;
   const Bytes image = read_session_image(path, findings);
   const std::string hash = to_hex(sha256(image));
   json state = client.handed(hash);

@@ -52,9 +52,9 @@ ReportIntegrity replayed_integrity(const std::string& path, grading::ExamContext
   ReportIntegrity i = read_seal(path, SessionReader(path));
   const records::SessionExplanation e = records::explain_session(path, "", true, grounds);
   i.replay = e.holds ? ReportIntegrity::Replay::agrees : ReportIntegrity::Replay::differs;
-  for (const auto& p : e.proved) i.proved.push_back(p.what);
-  for (const auto& f : e.findings) i.findings.push_back(f.what);
-  for (const auto& r : e.remarks) i.remarks.push_back(r.what);
+  for (const auto& p : e.proved) i.proved.push_back(p.message());
+  for (const auto& f : e.findings) i.findings.push_back(f.message());
+  for (const auto& r : e.remarks) i.remarks.push_back(r.message());
   return i;
 }
 

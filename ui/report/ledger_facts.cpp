@@ -45,7 +45,7 @@ void add_progress(ReportFiling& f, const records::Registry& registry, const reco
 /// What a session was filed with, and that another ending of it was.
 std::vector<Message> doubts_of(const records::FiledSession& s) {
   std::vector<Message> out;
-  for (const auto& f : s.findings) out.push_back(msg("filed with a finding: {}", f.what));
+  for (const auto& f : s.findings) out.push_back(msg("filed with a finding: {}", f.message()));
   for (const auto other : s.contested_by) out.push_back(msg("contested by entry {}, another ending of this exam", other));
   return out;
 }
@@ -78,7 +78,7 @@ void list_attempts(ReportFiling& f, const records::Registry& registry, const rec
 
 ReportLedger::ReportLedger(const std::string& folder) : places{folder}, content(records::read_ledger(places)) {
   if (!content.findings.empty())
-    throw Error(folder, msg("does not hold ({})", content.findings.front().what), msg("see `cavum ledger verify {}`", folder));
+    throw Error(folder, msg("does not hold ({})", content.findings.front().message()), msg("see `cavum ledger verify {}`", folder));
   registry = records::read_registry(content);
 }
 

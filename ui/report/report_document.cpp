@@ -197,7 +197,7 @@ std::vector<std::string> reasons_for(const ReportSource& s) {
                      limits_of(grading::as_marked(s.rubric.criteria[i], s.result))));
   }
   for (const auto& reason : s.result.verdict_reasons)
-    if (reason.kind != grading::FindingKind::critical_limit && reason.row().concerns != grading::Concerns::detail)
+    if (reason.kind != grading::FindingKind::critical_limit && reason.concerns() != grading::Concerns::detail)
       out.push_back(tr(finding_for(reason, s)));
   return out;
 }

@@ -20,11 +20,11 @@ class ClockCheck : public testing::Test {
     if (!sql.empty()) test::tamper(path_, sql);
     return check_clocks(SessionReader(path_));
   }
-  void expect_one(const std::vector<ClockRemark>& remarks, std::int64_t tick, ClockRemark::Kind kind, double s) {
-    ASSERT_EQ(remarks.size(), 1u) << (remarks.size() > 1 ? remarks[1].what : Message());
+  void expect_one(const std::vector<ClockRemark>& remarks, std::int64_t tick, DamageKind kind, double s) {
+    ASSERT_EQ(remarks.size(), 1u) << (remarks.size() > 1 ? remarks[1].message() : Message());
     EXPECT_EQ(remarks[0].first_tick, tick);
     EXPECT_EQ(remarks[0].kind, kind);
-    EXPECT_NEAR(testing_basics::figures_in(remarks[0].what).back(), s, 0.05);
+    EXPECT_NEAR(testing_basics::figures_in(remarks[0].message()).back(), s, 0.05);
   }
   test::Folder folder_;
   std::string path_ = folder_.file("exam.cavum");
@@ -32,8 +32,7 @@ class ClockCheck : public testing::Test {
 
 TEST_F(ClockCheck, AnExamInRealTimeIsNotRemarkedOn) { EXPECT_TRUE(after("").empty()); }
 TEST_F(ClockCheck, ASuspendIsNamedWithItsLength) {
-  expect_one(after("UPDATE chunk SET boot_ns = boot_ns + 5000000000, utc_ns = utc_ns + 5000000000 WHERE seq >= 2"), 2000, ClockRemark::Kind::slept,
-             5);
+  expect_one(after("UPDATE chunk SET boot_ns = boot_ns + 5000000000, utc_ns = utc_ns + 5000000000 WHERE seq >= 2"), 2000, DamageKind::clock_slept, 5);
 }
 TEST_F(ClockCheck, SlowMotionIsNamedAndLongerIsDoubtful) {
   const auto slow = [](const char* by) {
@@ -41,25 +40,25 @@ TEST_F(ClockCheck, SlowMotionIsNamedAndLongerIsDoubtful) {
     return "UPDATE chunk SET monotonic_ns = monotonic_ns" + more + ", boot_ns = boot_ns" + more + ", utc_ns = utc_ns" + more + " WHERE seq >= 4";
   };
   const auto once = after(slow("1500000000"));
-  expect_one(once, 4000, ClockRemark::Kind::slow, 2.5);
+  expect_one(once, 4000, DamageKind::clock_slow, 2.5);
   EXPECT_FALSE(once[0].doubtful) << "a station may be slow for a moment";
   const auto twice = after(slow("1500000000"));
   ASSERT_EQ(twice.size(), 2u);
-  EXPECT_EQ(twice[1].kind, ClockRemark::Kind::lost);
-  EXPECT_NEAR(testing_basics::figures_in(twice[1].what).at(0), 3, 0.05);
+  EXPECT_EQ(twice[1].kind, DamageKind::clock_lost);
+  EXPECT_NEAR(testing_basics::figures_in(twice[1].message()).back(), 3, 0.05);
   EXPECT_TRUE(twice[1].doubtful);
 }
 TEST_F(ClockCheck, AWallClockThatWasSetIsNamed) {
-  expect_one(after("UPDATE chunk SET utc_ns = utc_ns - 3600000000000 WHERE seq >= 1"), 1000, ClockRemark::Kind::set, 3600);
+  expect_one(after("UPDATE chunk SET utc_ns = utc_ns - 3600000000000 WHERE seq >= 1"), 1000, DamageKind::clock_put_back, 3600);
 }
 TEST_F(ClockCheck, ARecordingFasterThanTimeIsDoubtful) {
   const auto remarks = after("UPDATE chunk SET monotonic_ns = monotonic_ns / 10, boot_ns = boot_ns / 10, utc_ns = utc_ns / 10");
-  expect_one(remarks, 1000, ClockRemark::Kind::ahead, 5.4);
+  expect_one(remarks, 1000, DamageKind::clock_fast, 5.4);
   EXPECT_TRUE(remarks[0].doubtful);
 }
 TEST_F(ClockCheck, AFastEndOfAnExamThatBeganInRealTimeIsDoubtful) {
   const auto remarks = after("UPDATE chunk SET monotonic_ns = 3000000000, boot_ns = 3000000000, utc_ns = 3000000000 WHERE seq >= 3");
-  expect_one(remarks, 4000, ClockRemark::Kind::ahead, 3);
+  expect_one(remarks, 4000, DamageKind::clock_fast, 3);
   EXPECT_TRUE(remarks[0].doubtful);
 }
 TEST_F(ClockCheck, AWriterThatWaitedForItsDiskIsNot) {
@@ -87,7 +86,7 @@ TEST_F(ClockCheck, TimeThatTheServoOwnsUpToIsAccountedFor) {
   }
   const SessionReader session(path);
   EXPECT_NEAR(admitted_lost_s(session), 4.0, 1e-9);
-  for (const auto& r : check_clocks(session)) EXPECT_FALSE(r.doubtful) << r.what;
+  for (const auto& r : check_clocks(session)) EXPECT_FALSE(r.doubtful) << r.message();
 }
 
 }  // namespace

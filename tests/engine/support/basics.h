@@ -142,10 +142,15 @@ inline std::string text_of(const std::optional<Error>& problem) { return problem
 inline std::string text_of(const Message& message) { return english_text(message); }
 /// Of several, each on a line.
 template <class Found>
-requires requires(const Found& f) { text_of(f.what); }
-std::string text_of(const std::vector<Found>& all) {
+requires(
+    requires(const Found& f) { text_of(f.what); } || requires(const Found& f) { f.message(); }) std::string text_of(const std::vector<Found>& all) {
   std::string text;
-  for (const Found& f : all) text += text_of(f.what) + "\n";
+  for (const Found& f : all) {
+    if constexpr (requires { f.what; })
+      text += text_of(f.what) + "\n";
+    else
+      text += text_of(f.message()) + "\n";
+  }
   return text;
 }
 inline std::string text_of(const std::vector<Message>& messages) {

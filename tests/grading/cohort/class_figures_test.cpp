@@ -59,7 +59,7 @@ TEST(ClassFigures, TheLastAttemptCountsAndWhatDoesNotHoldDoesNot) {
   records::Registry r = four();
   r.sessions.push_back(session(5, "C-4", 60, 40));
   r.sessions.push_back(session(6, "C-5", 0, 0, "fail"));
-  r.sessions.back().findings = {{records::FindingKind::file_changed, msg("changed")}};
+  r.sessions.back().findings = {records::finding<records::FindingKind::file_changed>("changed")};
   r.sessions.push_back(session(7, "C-6", 60, 40));
   r.sessions.back().scenario_id = "another";
   const ClassFigures f = class_figures(r, "exam", {}, 3);
@@ -81,7 +81,8 @@ TEST(ClassFigures, WhoPerforatedWasFiledWithFindingsOrWasSimulatedAmongPeopleIsT
   r.sessions[1].result.change()["perforation"] = {{"truth", {{"perforated", false}, {"tissue", nullptr}}},
                                                   {"aim", {{"perforated", true}, {"tissue", "pulp"}}}};
   r.sessions.push_back(session(5, "C-5", 60, 40));
-  r.sessions.back().findings = records::findings_of(records::FindingKind::recording_unsound, {Name{"the chain breaks at second 7"}, Name{"another"}});
+  r.sessions.back().findings = {records::finding<records::FindingKind::recording_unsound>("the chain breaks at second 7"),
+                                records::finding<records::FindingKind::recording_unsound>("another")};
   r.sessions[2].simulated = "expert";
   const ClassFigures f = class_figures(r, "exam", {}, 3);
   EXPECT_EQ(f.n, 4u);

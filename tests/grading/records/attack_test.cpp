@@ -154,7 +154,7 @@ TEST_F(Attack, MoreTimeThanWasGranted) {
   expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.grant.extra_time_percent = 50; }), Kind::ticket_accommodations);
 }
 TEST_F(Attack, AnotherForceModel) {
-  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.force_model = "paper"; }), Kind::ticket_model,
+  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.force_model = "paper"; }), Kind::ticket_artifact,
                  {"force_model.toml"});
 }
 TEST_F(Attack, ATicketMadeByAnotherKey) {

@@ -115,7 +115,7 @@ TEST_F(BackedUp, WhileThreeProgramsAddToIt) {
     [&] {
       const Backup b = back_up();
       const LedgerContent copy = read_ledger({backup()}, AskWitness::no);
-      ASSERT_TRUE(copy.findings.empty()) << copy.findings[0].what;
+      ASSERT_TRUE(copy.findings.empty()) << copy.findings[0].message();
       ASSERT_EQ(copy.entries.size(), b.checkpoint.size);
       grown += copies.empty() || copies.back().size < b.checkpoint.size ? 1 : 0;
       copies.push_back(b.checkpoint);
@@ -183,7 +183,7 @@ TEST_F(BackedUp, NothingIsLostWhenNothingWasAdded) {
   EXPECT_TRUE(plan.findings.empty() && plan.lost_entries.empty() && plan.missing_sessions.empty());
   restore(backup(), restored().folder, plan, "", School::key());
   const auto check = check_ledger(restored(), true);
-  EXPECT_TRUE(check.findings.empty()) << check.findings[0].what;
+  EXPECT_TRUE(check.findings.empty()) << check.findings[0].message();
   expect_finding(check.remarks, Kind::restored, {"6", "6"});
   Ledger ledger(restored().folder, School::key());
   EXPECT_TRUE(file_session(ledger, later()).seq) << "it goes on";
@@ -208,7 +208,7 @@ TEST_F(BackedUp, AnOlderOneSaysWhatIsMissingAndGoesOn) {
 
   restore(backup(), restored().folder, plan, "the disk died", School::key());
   const LedgerContent c = read_ledger(restored());
-  ASSERT_TRUE(c.findings.empty()) << c.findings[0].what;
+  ASSERT_TRUE(c.findings.empty()) << c.findings[0].message();
   const LedgerEntry& e = c.entries.at(6);
   const auto* said = e.as<RestoreEntry>();
   ASSERT_NE(said, nullptr);
@@ -305,7 +305,7 @@ TEST_F(BackedUp, ASecondOneCutOffBeforeItSaysWhatItHoldsIsStillABackup) {
   const Backup second = back_up();
   write_text_file(backup() + "/checkpoint", said);
   const RestorePlan plan = plan_restore(backup(), {}, {});
-  EXPECT_TRUE(plan.findings.empty()) << plan.findings[0].what;
+  EXPECT_TRUE(plan.findings.empty()) << plan.findings[0].message();
   EXPECT_EQ(plan.content.entries.size(), second.checkpoint.size);
   restore(backup(), restored().folder, plan, "", School::key());
   EXPECT_TRUE(check_ledger(restored(), false).findings.empty());

@@ -79,14 +79,14 @@ TEST_F(Cosigning, ACheckpointIsANoteOfFourLines) {
 
 TEST_F(Cosigning, GoesOnFromWhatWasSignedBefore) {
   const Cosigned first = sign(cosign_request(content(), 0), school_key());
-  ASSERT_TRUE(first.findings.empty()) << first.findings[0].what;
+  ASSERT_TRUE(first.findings.empty()) << first.findings[0].message();
   EXPECT_EQ(first.size, 1u);
   std::uint64_t before = 1;
   for (const int more : {1, 2, 5, 0, 9}) {
     add(more);
     const Cosigned next = sign(cosign_request(content(), before));
     before = next.size;
-    ASSERT_TRUE(next.findings.empty()) << next.findings[0].what;
+    ASSERT_TRUE(next.findings.empty()) << next.findings[0].message();
     EXPECT_EQ(next.size, content().entries.size());
     const CosignedNoteCheck check = check_cosigned(next.note, known(), content());
     EXPECT_TRUE(check.findings.empty() && check.not_checked.empty());

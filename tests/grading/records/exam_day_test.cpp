@@ -120,7 +120,7 @@ TEST(ExamDay, ARecordingWhoseClockStoodStillByItselfIsNotFiledAsSound) {
   sit_shortly(k_scenario, second, school.ticket("2"), {}, held);
   let_go_on(ledger, hold, "all clear");
   const Filing filed = file_session(ledger, second, {}, grounds);
-  EXPECT_TRUE(filed.findings.empty()) << filed.findings.front().what;
+  EXPECT_TRUE(filed.findings.empty()) << filed.findings.front().message();
   ASSERT_TRUE(filed.seq);
   const nlohmann::json& result = *ledger.content().entries.at(*filed.seq).as<SessionEntry>()->result.value;
   EXPECT_EQ(result.at("pauses").at("ticks"), 50);

@@ -39,7 +39,7 @@ class Kept : public testing::Test {
         shared_->sit(ticket, "expert", [](scenarios::ExamOptions& o) { o.notes.emplace_back("accommodation.extra_time_percent", "37"); });
     Ledger ledger = shared_->ledger();
     const Filing filing = file_session(ledger, path);
-    for (const auto& f : filing.findings) ADD_FAILURE() << f.what;
+    for (const auto& f : filing.findings) ADD_FAILURE() << f.message();
     session_ = filing.seq.value_or(0);
     std::filesystem::remove(path);
   }
@@ -50,9 +50,9 @@ class Kept : public testing::Test {
   /// Everything that proves: entries, tree, signatures, witness, a receipt from before.
   void expect_proofs_hold(const json& receipt) {
     const LedgerCheck check = check_ledger(school_.places(), true);
-    for (const auto& f : check.findings) ADD_FAILURE() << f.what;
+    for (const auto& f : check.findings) ADD_FAILURE() << f.message();
     const LedgerContent now = content();
-    for (const auto& f : check_receipt(receipt, now.public_key, &now)) ADD_FAILURE() << f.what;
+    for (const auto& f : check_receipt(receipt, now.public_key, &now)) ADD_FAILURE() << f.message();
   }
 
   static inline School* shared_ = nullptr;
@@ -88,7 +88,7 @@ TEST_F(Kept, WhoIsForgottenAndComesBackWithAnOldFileIsNamedAndRemoved) {
   EXPECT_FALSE(back.of_pseudonym(candidate));
   LedgerCheck again = check_ledger(school_.places(), false);
   check_owner(again, school_.places(), content(), school_key_path(), school_public_key_path());
-  EXPECT_TRUE(again.findings.empty()) << again.findings[0].what;
+  EXPECT_TRUE(again.findings.empty()) << again.findings[0].message();
 }
 
 TEST_F(Kept, WhoIsTakenOutOfTheIdentitiesWithoutAnEntryIsNamed) {

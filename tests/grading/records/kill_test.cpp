@@ -31,7 +31,7 @@ void enter_three(const School& school, std::vector<std::string>& acknowledged) {
 
 void expect_nothing_lost(const School& school, const std::vector<std::string>& acknowledged, const std::string& when) {
   const LedgerContent content = read_ledger(school.places());
-  EXPECT_TRUE(content.findings.empty()) << when << ": " << content.findings[0].what;
+  EXPECT_TRUE(content.findings.empty()) << when << ": " << content.findings[0].message();
   for (std::size_t i = 0; i < acknowledged.size(); ++i) {
     ASSERT_GT(content.entries.size(), i + k_first_entries) << when;
     EXPECT_EQ(content.entries[i + k_first_entries].text, acknowledged[i]) << when;
@@ -97,7 +97,7 @@ void try_together(InjectedFault fault, const char* name) {
     std::error_code ignored;
     if (fault == InjectedFault::power_cut) std::filesystem::remove(school.places().database() + "-shm", ignored);
     const LedgerContent content = read_ledger(school.places());
-    ASSERT_TRUE(content.findings.empty()) << name << " at change " << n << ": " << content.findings[0].what;
+    ASSERT_TRUE(content.findings.empty()) << name << " at change " << n << ": " << content.findings[0].message();
     const std::size_t added = content.entries.size() - k_first_entries;
     ASSERT_TRUE(added == 3 || (added == 0 && !acknowledged)) << name << " at change " << n << ": " << added << " of 3";
     (added == 3 ? with : without)++;

@@ -39,11 +39,11 @@ TEST(Ledger, EveryReceiptHoldsForEveryLaterLedger) {
     receipts.push_back(ledger.receipt(seq));
   }
   const LedgerContent content = read_ledger(school.places());
-  ASSERT_TRUE(content.findings.empty()) << content.findings[0].what;
+  ASSERT_TRUE(content.findings.empty()) << content.findings[0].message();
   EXPECT_EQ(content.entries.size(), 20u + k_first_entries);
   for (const auto& r : receipts) {
     const auto findings = check_receipt(r, content.public_key, &content);
-    EXPECT_TRUE(findings.empty()) << findings[0].what;
+    EXPECT_TRUE(findings.empty()) << findings[0].message();
   }
   EXPECT_FALSE(check_receipt(receipts[3], std::string(64, '0'), nullptr).empty()) << "another school's key";
 }
@@ -374,7 +374,7 @@ TEST(CheckLedger, SaysWhatItCouldNotCheckAndChecksTheRest) {
   const std::string identities = school.places().identities(), key = school_key_path(), known = school_public_key_path();
   std::filesystem::rename(identities, identities + ".away");
   LedgerCheck check = check_all(school);
-  EXPECT_TRUE(check.findings.empty()) << check.findings[0].what;
+  EXPECT_TRUE(check.findings.empty()) << check.findings[0].message();
   expect_finding(check.not_checked, Kind::identities_changed, {identities});
   test::tamper(school.places().database(), "DROP TRIGGER entry_stays; UPDATE entry SET seq = seq");
   expect_finding(check_all(school).findings, Kind::schema_differs, {"entry_stays"});  // the rest is checked all the same
@@ -463,7 +463,7 @@ TEST(Receipt, ThatIsNoneIsAFinding) {
   for (const json& none : {json::parse("not json", nullptr, false), json("text"), json::array(), json::object(), json{{"ledger", 7}}}) {
     const auto findings = check_receipt(none, "", nullptr);
     expect_kinds(findings, {Kind::malformed});
-    EXPECT_EQ(english_text(findings.at(0).what).find("json.exception"), std::string::npos) << findings[0].what;
+    EXPECT_EQ(english_text(findings.at(0).message()).find("json.exception"), std::string::npos) << findings[0].message();
   }
 }
 

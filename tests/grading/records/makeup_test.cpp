@@ -80,7 +80,7 @@ TEST_F(MakeupSitting, TakesThePlaceOfAMissedOneAndTheGradebookSaysSo) {
   EXPECT_EQ(ticket_of(last_entry()).makes_up->became, FirstSitting::missed);
   EXPECT_EQ(read_ledger(school_.places()).entries.back().by.reason, "the lift stood still");
   const Filing filed = file(school_.sit(makeup));
-  ASSERT_TRUE(filed.seq) << filed.findings.front().what;
+  ASSERT_TRUE(filed.seq) << filed.findings.front().message();
   EXPECT_EQ(release_all(), 1u);
   EXPECT_NE(gradebook().find(" " + std::to_string(entry)), std::string::npos) << gradebook();
   EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
@@ -104,7 +104,7 @@ TEST_F(MakeupSitting, OfAnInterruptedOneCountsAloneWhateverTheFirstWasWorth) {
     EXPECT_EQ(last_entry(), before);
   }
   const auto worse = file_short(makeup);
-  ASSERT_TRUE(worse.seq) << worse.findings.front().what;
+  ASSERT_TRUE(worse.seq) << worse.findings.front().message();
   Ledger ledger = school_.ledger();
   EXPECT_THROW(release_results(ledger, {.with_findings = true, .sessions = {*good.seq}}), Error);
   EXPECT_EQ(release_results(ledger, {.all = true, .undecided = true}).results, std::vector<std::uint64_t>{*worse.seq});
@@ -209,7 +209,7 @@ TEST_F(MakeupSitting, OfTwoSittingsOneIsShownAlsoWhereAnEntryNamesBoth) {
   EXPECT_EQ(r.sessions[0].shown_seq, 0u);
   EXPECT_EQ(r.sessions[1].shown_seq, *b.seq);
   expect_kinds(r.remarks, {Kind::release_void});
-  EXPECT_TRUE(tells(words_of(r.remarks), Value(static_cast<std::int64_t>(*a.seq)))) << r.remarks[0].what;
+  EXPECT_TRUE(tells(words_of(r.remarks), Value(static_cast<std::int64_t>(*a.seq)))) << r.remarks[0].message();
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ TEST_F(Promised, WhoHasSatAnExamGetsNoOtherTicketForItUnlessAPersonSaysSo) {
 TEST_F(Promised, AnExamThatTheLedgerLetBeginIsFiled) {
   const std::string ticket = school_.ticket("4711", [](Ticket& t) { t.begun_at_ledger = true; });
   const Filing f = file(sit(ticket, let_begin(ticket)));
-  for (const auto& finding : f.findings) ADD_FAILURE() << finding.what;
+  for (const auto& finding : f.findings) ADD_FAILURE() << finding.message();
   EXPECT_TRUE(f.seq);
   EXPECT_TRUE(check_ledger(school_.places(), true).findings.empty());
 }

@@ -55,7 +55,7 @@ TEST_F(KeptRegrade, IsFoundAgainByteForByteAndKeptOnce) {
   enter_regrade(ledger, session_, better(), basis_, "the limit was misprinted");
   enter_regrade(ledger, session_, sealed_, basis_, "and again");
   const LedgerContent content = read_ledger(school_.places());
-  EXPECT_TRUE(content.findings.empty()) << content.findings[0].what;
+  EXPECT_TRUE(content.findings.empty()) << content.findings[0].message();
   EXPECT_EQ(content.documents.size(), 1u);
   EXPECT_EQ(ledger.content().documents, content.documents);
   const FiledSession s = read_registry(content).sessions.at(0);

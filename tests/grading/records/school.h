@@ -126,18 +126,18 @@ inline void expect_told(const std::vector<Message>& messages, const std::vector<
       << testing_basics::text_of(messages);
 }
 
-/// Expects a finding of this kind that tells all of `parts`.
+/// Expects a finding of this group that tells all of `parts`.
 inline void expect_finding(const records::Findings& findings, Kind kind, const std::vector<std::string>& parts = {""}) {
   records::Findings of_kind;
-  std::copy_if(findings.begin(), findings.end(), std::back_inserter(of_kind), [&](const records::Finding& f) { return f.kind == kind; });
+  std::copy_if(findings.begin(), findings.end(), std::back_inserter(of_kind), [&](const records::Finding& f) { return f.group() == kind; });
   EXPECT_FALSE(of_kind.empty()) << "no " << name_of(kind) << " among\n" << testing_basics::text_of(words_of(findings));
   if (!of_kind.empty()) expect_told(words_of(of_kind), parts);
 }
 
-/// Expects findings of these kinds, in this order, and no others.
+/// Expects findings of these groups, in this order, and no others.
 inline void expect_kinds(const records::Findings& findings, const std::vector<Kind>& kinds) {
   std::vector<Kind> found;
-  for (const auto& f : findings) found.push_back(f.kind);
+  for (const auto& f : findings) found.push_back(f.group());
   EXPECT_EQ(found, kinds) << testing_basics::text_of(words_of(findings));
 }
 

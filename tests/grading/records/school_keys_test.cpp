@@ -33,7 +33,7 @@ class SchoolKeys : public testing::Test {
  protected:
   void expect_holds() {
     const LedgerCheck check = check_ledger(school_.places(), false);
-    for (const auto& f : check.findings) ADD_FAILURE() << f.what;
+    for (const auto& f : check.findings) ADD_FAILURE() << f.message();
   }
   std::string replace(std::int64_t until_utc_ns = 0) {
     return replace_school_key(school_.ledger_folder(), school_key_path(), until_utc_ns, "yearly");
@@ -55,15 +55,15 @@ TEST_F(SchoolKeys, ReplacedThenTheNewOneSignsAndAllOfBeforeStaysProved) {
   ASSERT_EQ(c.keys.size(), 2u);
   EXPECT_EQ(c.key_of(c.entries.size() - 1), first);
   EXPECT_EQ(c.key_of(c.entries.size()), now) << "the entry that introduces it is signed by it";
-  for (const auto& f : check_receipt(receipt, c.public_key, &c)) ADD_FAILURE() << f.what;
-  for (const auto& f : check_results(results, c.public_key, &c)) ADD_FAILURE() << f.what;
+  for (const auto& f : check_receipt(receipt, c.public_key, &c)) ADD_FAILURE() << f.message();
+  for (const auto& f : check_results(results, c.public_key, &c)) ADD_FAILURE() << f.message();
   EXPECT_TRUE(Identities(school_.places().identities()).check(School::key()).empty()) << "identities are sealed by the new one";
   Ledger ledger = school_.ledger();
   EXPECT_TRUE(check_receipt(ledger.receipt(3), now, nullptr).empty()) << "a new receipt of an old entry needs the new key alone";
   const Filing filing = file_session(ledger, school_.sit(old_ticket));
-  for (const auto& f : filing.findings) ADD_FAILURE() << f.what << " (a ticket of before is still good)";
+  for (const auto& f : filing.findings) ADD_FAILURE() << f.message() << " (a ticket of before is still good)";
   const Filing newer = file_session(ledger, school_.sit(school_.ticket("4712")));
-  for (const auto& f : newer.findings) ADD_FAILURE() << f.what;
+  for (const auto& f : newer.findings) ADD_FAILURE() << f.message();
   expect_holds();
 }
 
@@ -162,7 +162,7 @@ TEST_F(SchoolKeys, ACosignerGoesOnWithTheNewKeyWhenTheOldOneHasSignedForIt) {
   cosigner.key_entries.clear();
   EXPECT_TRUE(cosign(cosigner, cosign_request(c, c.entries.size()), "request", 4).findings.empty()) << "and remembers it";
   const auto check = check_cosigned(signed_now.note, {{cosigner.name, NoteKind::cosignature, cosigner.key.public_key}}, c);
-  for (const auto& f : check.findings) ADD_FAILURE() << f.what;
+  for (const auto& f : check.findings) ADD_FAILURE() << f.message();
 }
 
 }  // namespace

@@ -213,7 +213,7 @@ TEST_F(SchoolMarks, ALogThatLiesBesideTheFileIsCheckedAndKeptWithIt) {
   };
   leave_log("UPDATE result SET json = replace(json, '\"verdict\":\"fail\"', '\"verdict\":\"pass\"') WHERE 0; PRAGMA user_version = 1");
   const Filing sound = file(path);
-  ASSERT_TRUE(sound.seq) << sound.findings[0].what;
+  ASSERT_TRUE(sound.seq) << sound.findings[0].message();
   EXPECT_TRUE(check_ledger(school_.places(), true).findings.empty()) << "what was kept is what was checked";
   const AtStation here(school_.file("station"));
   const School other(school_);
@@ -257,7 +257,7 @@ TEST(Stations, AKeyThatWasRevokedReplacedOrRanOut) {
   const auto now = [] { return read_clocks().utc_ns; };
   const auto problem = [&](const SigningKey& key, std::int64_t closed, std::int64_t received) {
     const auto found = read_registry(ledger.content()).stations.problem(to_hex(key.public_key), closed, received);
-    return found ? std::optional(found->kind) : std::nullopt;
+    return found ? std::optional(found->group()) : std::nullopt;
   };
   EXPECT_FALSE(problem(first, now(), now()));
   EXPECT_EQ(problem(second, now(), now()), Kind::station_unknown);

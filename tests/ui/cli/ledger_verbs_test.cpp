@@ -31,10 +31,10 @@ class LedgerVerbs : public testing_ui::Program {
     std::size_t at = 0;
     return std::all_of(parts.begin(), parts.end(), [&](const std::string& p) { return (at = text.find(p, at)) != std::string::npos; });
   }
-  static std::string kinds_in(const json& findings) {
-    std::string kinds;
-    for (const json& f : findings) kinds += (kinds.empty() ? "" : " ") + f.at("kind").get<std::string>();
-    return kinds;
+  static std::string groups_in(const json& findings) {
+    std::string groups;
+    for (const json& f : findings) groups += (groups.empty() ? "" : " ") + f.at("group").get<std::string>();
+    return groups;
   }
   testing_ui::Ran sit(const std::string& ticket, const std::string& out, const std::string& more = "") {
     return run("exam " + scenario() + " --ticket " + ticket + " --operator expert --quiet --out " + path(out) + more);
@@ -108,7 +108,7 @@ TEST_F(LedgerVerbs, AClassFromTicketToGradebook) {
   write_text_file(path("all.json"), results);
   const auto changed = run("ledger verify " + path("L") + " --json --results " + path("all.json"));
   EXPECT_EQ(changed.exit_code, 1);
-  EXPECT_EQ(json::parse(changed.out)["findings"].at(0)["kind"], "signature_invalid") << changed.out;
+  EXPECT_EQ(json::parse(changed.out)["findings"].at(0)["group"], "signature_invalid") << changed.out;
   EXPECT_TRUE(in_order(json::parse(changed.out)["findings"].at(0)["text"], {path("all.json")})) << changed.out;
 }
 
@@ -201,7 +201,7 @@ TEST_F(LedgerVerbs, VerifySaysWhatIsProvedAndWhatIsNot) {
   EXPECT_TRUE(j["findings"].empty());
   const auto other = run("verify " + path("e.cavum") + " --json --school-key " + std::string(64, 'a'));
   EXPECT_EQ(other.exit_code, 1);
-  EXPECT_EQ(kinds_in(json::parse(other.out)["findings"]), "ticket_invalid") << other.out;
+  EXPECT_EQ(groups_in(json::parse(other.out)["findings"]), "ticket_invalid") << other.out;
   // and so without an option, by the school that this computer knows
   const std::string own = read_text_file(path("home/school.pub"));
   write_text_file(path("home/school.pub"), std::string(64, 'a') + "\n");
@@ -230,7 +230,7 @@ TEST_F(LedgerVerbs, AnExamThatWasClosedIsNotTakenUpAgainFromItsBeginning) {
   ASSERT_EQ(run("exam --resume --end --quiet --out " + cut).exit_code, 0);
   const auto told = run("verify --json " + cut);
   EXPECT_EQ(told.exit_code, 1);
-  EXPECT_EQ(kinds_in(json::parse(told.out)["findings"]), "station_changed") << "it did not remember beginning it: " << told.out;
+  EXPECT_EQ(groups_in(json::parse(told.out)["findings"]), "station_changed") << "it did not remember beginning it: " << told.out;
   const auto reported = run("report " + cut + " --out " + path("cut.html"));  // says so before its verdict
   ASSERT_EQ(reported.exit_code, 0) << reported.err;
   EXPECT_NE(reported.err.find(cut), std::string::npos) << reported.err;
@@ -269,7 +269,7 @@ TEST_F(LedgerVerbs, ALedgerThatWasEditedIsShownWithAWarning) {
     EXPECT_EQ(edited.exit_code, 1);
     EXPECT_NE(edited.err.find(path("L")), std::string::npos) << edited.err;
   }
-  EXPECT_EQ(json::parse(run("ledger show " + path("L") + " --json").out)["findings"].at(0)["kind"], "schema_differs");
+  EXPECT_EQ(json::parse(run("ledger show " + path("L") + " --json").out)["findings"].at(0)["group"], "schema_differs");
 }
 
 TEST_F(LedgerVerbs, VerifyChecksWhatItCanAndNamesWhatItCannot) {
@@ -280,19 +280,19 @@ TEST_F(LedgerVerbs, VerifyChecksWhatItCanAndNamesWhatItCannot) {
   const auto cut = run("ledger verify --json " + path("cut"));
   EXPECT_EQ(cut.exit_code, 1);
   const json of_cut = json::parse(cut.out);
-  EXPECT_EQ(of_cut["findings"].at(0)["kind"], "schema_differs") << "the table that was taken out: " << of_cut;
+  EXPECT_EQ(of_cut["findings"].at(0)["group"], "schema_differs") << "the table that was taken out: " << of_cut;
   EXPECT_EQ(of_cut["school"], "");
   expect_refused("ledger candidates " + path("cut"), {path("cut")});
   fs::remove(path("L/identities.db"));
   const json r = run_json("ledger verify " + path("L"));
   EXPECT_EQ(r["entries"], 3);
-  EXPECT_EQ(kinds_in(r["not_checked"]), "identities_changed") << r;
+  EXPECT_EQ(groups_in(r["not_checked"]), "identities_changed") << r;
   const std::string own = read_text_file(path("home/school.pub"));
   write_text_file(path("home/school.pub"), std::string(64, 'a') + "\n");
   const auto other = run("ledger verify " + path("L") + " --json");
   EXPECT_EQ(other.exit_code, 1);
   const auto findings = json::parse(other.out)["findings"];
-  ASSERT_EQ(kinds_in(findings), "other_school");
+  ASSERT_EQ(groups_in(findings), "other_school");
   EXPECT_NE(findings[0]["text"].get<std::string>().find(path("home/school.pub")), std::string::npos) << findings;
   write_text_file(path("home/school.pub"), own);
   write_text_file(path("r.json"), "this is no JSON");

@@ -96,7 +96,7 @@ TEST_F(VerifyAllOfALedger, ThreadsShardsAndTasksGiveOneAnswer) {
     expect_one_answer(options, 1);
     const json findings = answer(options).ledger_findings;
     ASSERT_EQ(findings.size(), 2u) << findings;
-    EXPECT_EQ((std::set{findings[0]["kind"], findings[1]["kind"]}), (std::set<json>{"file_gone", "file_changed"})) << findings;
+    EXPECT_EQ((std::set{findings[0]["group"], findings[1]["group"]}), (std::set<json>{"file_gone", "file_changed"})) << findings;
   }
 }
 
@@ -110,7 +110,7 @@ TEST_F(VerifyAllOfALedger, AMissingPartIsNoBadExam) {
   EXPECT_TRUE(told["ledger"]["findings"].empty()) << told;
   EXPECT_NE(half.err.find("2/2"), std::string::npos) << "the part that is missing: " << half.err;
   fs::remove(files_[0]);  // of shard 1: that is one
-  EXPECT_EQ(json::parse(verify_all(path("L") + " --json --merge " + path("1.part")).out)["ledger"]["findings"].at(0)["kind"], "file_gone");
+  EXPECT_EQ(json::parse(verify_all(path("L") + " --json --merge " + path("1.part")).out)["ledger"]["findings"].at(0)["group"], "file_gone");
 }
 
 TEST_F(VerifyAllOfALedger, NothingIsWrittenIntoIt) {

@@ -75,7 +75,7 @@ TEST(Desk, FromRosterToGradebookEachActionIsAnEntryWithWhoAndWhy) {
   EXPECT_NE(criteria.fields.at("content-disposition").find("criteria.csv"), std::string::npos);
 
   const records::LedgerContent content = opened.content();
-  EXPECT_TRUE(content.findings.empty()) << english_text(content.findings.front().what);
+  EXPECT_TRUE(content.findings.empty()) << english_text(content.findings.front().message());
   EXPECT_TRUE(records::read_registry(content).findings.empty());
 }
 

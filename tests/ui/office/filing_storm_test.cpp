@@ -42,7 +42,7 @@ Seat sat(const School& school, int number) {
 /// Each that has a receipt stands in the ledger as the receipt says.
 std::size_t acknowledged(const School& school, const std::vector<Seat>& seats, const std::string& when) {
   const auto content = records::read_ledger(school.places());
-  EXPECT_TRUE(content.findings.empty()) << when << ": " << english_text(content.findings.front().what);
+  EXPECT_TRUE(content.findings.empty()) << when << ": " << english_text(content.findings.front().message());
   std::size_t n = 0;
   for (const Seat& seat : seats) {
     const auto outcome = StationLink::outcome(seat.recording);
