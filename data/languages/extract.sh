@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Brings the template cavum.pot, and the catalogues beside it, up to what the sources say. --check: changes nothing, and exits with 1 when something would change,
 # or when a message of a catalogue is missing or only guessed (fuzzy).
-#   C++    what stands in msg, msgn, tr, trn and said, in all files of engine, scenarios, grading and ui
+#   C++    what stands in msg, msgn, tr, trn and noop, in all files of engine, scenarios, grading and ui
 #   tasks  what stands as title, sentence or instruction in data/tasks, and as title of a criterion in data/scenarios
-#   pages  what stands in tr and said
+#   pages  what stands in tr and noop
 set -euo pipefail
 export LC_ALL=C.UTF-8  # what a letter is, and the order
 cd "$(dirname "$0")"
@@ -19,17 +19,17 @@ extract() { # OUT LANGUAGE KEYWORDS...; names of files from stdin
 }
 git -C "$root" ls-files {engine,scenarios,grading,ui}/{'*.h','*.cpp','*.inc'} >"$new/sources"
 git -C "$root" ls-files ui/{report,office}/page/src/'*.ts' >"$new/page"
-extract "$new/sources.pot" C++ --keyword=msg:1 --keyword=msgn:1,2 --keyword=tr:1 --keyword=trn:1,2 --keyword=said:1 <"$new/sources"
+extract "$new/sources.pot" C++ --keyword=msg:1 --keyword=msgn:1,2 --keyword=tr:1 --keyword=trn:1,2 --keyword=noop:1 <"$new/sources"
 # the tables of findings and damages are macros, which xgettext passes over
 sed -e '/^#define/d' -e 's/ \\$//' "$root"/grading/{result,records}/finding.h "$root/engine/session/damage.h" >"$new/findings.h"
 extract "$new/findings.pot" C++ --keyword=FINDING:3 --keyword=KIND:3 --keyword=DAMAGE:3 <<<"$new/findings.h"
-extract "$new/page.pot" JavaScript '--keyword=tr:1,"page"' '--keyword=said:1,"page"' <"$new/page"  # the comment says that the page needs it
+extract "$new/page.pot" JavaScript '--keyword=tr:1,"page"' '--keyword=noop:1,"page"' <"$new/page"  # the comment says that the page needs it
 # titles, sentences and instructions of tasks, a line each, their gaps without names; and what criteria are called in them and in the scenarios that ship
 {
   grep -hE '^ *(title|what|what_front|chosen|chosen_front|instruction) = ' "$root"/data/tasks/*.toml
   awk '/^\[/ { criterion = /rubric.criteria/ } criterion && /^title = /' "$root"/data/scenarios/*.toml
-} | sed -E 's/^[^=]*= //; s/\{[a-z_]+\}/{}/g' | grep -oE '"[^"]+"' | sed 's/.*/said(&)/' >"$new/tasks.h"
-extract "$new/tasks.pot" C++ --keyword=said:1 <<<"$new/tasks.h"
+} | sed -E 's/^[^=]*= //; s/\{[a-z_]+\}/{}/g' | grep -oE '"[^"]+"' | sed 's/.*/noop(&)/' >"$new/tasks.h"
+extract "$new/tasks.pot" C++ --keyword=noop:1 <<<"$new/tasks.h"
 # the page stands first: what it shares with C++ must keep the comment that the page needs it
 msgcat --use-first --no-wrap --sort-output "$new/page.pot" "$new/sources.pot" "$new/findings.pot" "$new/tasks.pot" |
   sed -e '/^"POT-Creation-Date:/d' -e '/^#, c-format$/d' -e '/^#, javascript-format$/d' -e 's/^"Project-Id-Version: PACKAGE VERSION/"Project-Id-Version: cavum/' >"$new/all.pot"

@@ -1,5 +1,5 @@
-// Little-endian bytes for our file formats. The reader never runs past the end: it throws instead, so
-// a truncated or damaged file is an error and not a crash.
+// Little-endian bytes for our file formats. The reader never runs past the end: it throws instead,
+// so a truncated or damaged file is an error and not a crash.
 #pragma once
 
 #include <bit>
@@ -15,7 +15,8 @@
 
 namespace cavum {
 
-static_assert(std::endian::native == std::endian::little, "file formats are written on little-endian machines");
+static_assert(std::endian::native == std::endian::little,
+              "file formats are written on little-endian machines");
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -28,7 +29,9 @@ class ByteWriter {
     const auto* p = reinterpret_cast<const std::uint8_t*>(&value);
     bytes_.insert(bytes_.end(), p, p + sizeof(T));
   }
-  void put_bytes(std::span<const std::uint8_t> b) { bytes_.insert(bytes_.end(), b.begin(), b.end()); }
+  void put_bytes(std::span<const std::uint8_t> b) {
+    bytes_.insert(bytes_.end(), b.begin(), b.end());
+  }
   /// Length as u32, then the characters.
   void put_string(const std::string& s) {
     put(static_cast<std::uint32_t>(s.size()));
@@ -42,7 +45,9 @@ class ByteWriter {
     }
     bytes_.push_back(static_cast<std::uint8_t>(v));
   }
-  void put_signed_varint(std::int64_t v) { put_varint((static_cast<std::uint64_t>(v) << 1) ^ static_cast<std::uint64_t>(v >> 63)); }
+  void put_signed_varint(std::int64_t v) {
+    put_varint((static_cast<std::uint64_t>(v) << 1) ^ static_cast<std::uint64_t>(v >> 63));
+  }
   [[nodiscard]] const Bytes& bytes() const noexcept { return bytes_; }
   [[nodiscard]] Bytes take() noexcept { return std::move(bytes_); }
 
@@ -53,7 +58,8 @@ class ByteWriter {
 /// Reads what ByteWriter wrote. Throws Error(`where`, ...) at the end of the data.
 class ByteReader {
  public:
-  ByteReader(std::span<const std::uint8_t> bytes, Where where) : bytes_(bytes), where_(std::move(where)) {}
+  ByteReader(std::span<const std::uint8_t> bytes, Where where)
+      : bytes_(bytes), where_(std::move(where)) {}
 
   template <class T>
   [[nodiscard]] T get() {
@@ -89,7 +95,9 @@ class ByteReader {
     return static_cast<std::int64_t>(v >> 1) ^ -static_cast<std::int64_t>(v & 1);
   }
   [[nodiscard]] std::size_t left() const noexcept { return bytes_.size() - at_; }
-  [[noreturn]] void fail(const Message& what) const { throw Error(where_, what, msg("the file is damaged or incomplete: use an intact copy")); }
+  [[noreturn]] void fail(const Message& what) const {
+    throw Error(where_, what, msg("the file is damaged or incomplete: use an intact copy"));
+  }
 
  private:
   std::span<const std::uint8_t> bytes_;

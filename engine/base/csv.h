@@ -1,6 +1,7 @@
-// Tables as spreadsheets and rigs write them (CSV): one row on a line, fields parted by comma, semicolon or tab (where asked for, a bar), fields in
-// quotes, any line ends, a byte order mark, comments (#). Read row by row, so that a recording of millions of rows takes no more memory than its
-// numbers.
+// Tables as spreadsheets and rigs write them (CSV): one row on a line, fields parted by comma,
+// semicolon or tab (where asked for, a bar), fields in quotes, any line ends, a byte order mark,
+// comments (#). Read row by row, so that a recording of millions of rows takes no more memory than
+// its numbers.
 #pragma once
 
 #include <deque>
@@ -18,17 +19,18 @@ struct CsvForm {
   std::size_t most_fields = 100;   ///< of a row
   std::size_t most_rows = 20'000;  ///< below the heading
   bool quotes = true;              ///< false: a quote is a character like any other
-  bool plain_text = true;          ///< refuses fields that are no UTF-8, or hold a control character
-  bool bars = false;               ///< a bar (|) may part the fields, too
-  bool uneven = false;             ///< gives rows with more or fewer fields than the heading has as they are
+  bool plain_text = true;  ///< refuses fields that are no UTF-8, or hold a control character
+  bool bars = false;       ///< a bar (|) may part the fields, too
+  bool uneven = false;  ///< gives rows with more or fewer fields than the heading has as they are
 };
 
 /// Throws Error(where, ...) for a text that begins as UTF-16 does.
 void refuse_utf16(std::string_view text, const std::string& where);
 
-/// Goes through a table. The first row is the heading: what stands there most often, outside quotes, of comma, semicolon and tab (`bars`: or bar)
-/// parts the fields of all rows, and each row has as many fields. A first line `sep=;`, as spreadsheets write and read it, names what parts them
-/// instead: any ASCII character that is no letter, digit or quote.
+/// Goes through a table. The first row is the heading: what stands there most often, outside
+/// quotes, of comma, semicolon and tab (`bars`: or bar) parts the fields of all rows, and each row
+/// has as many fields. A first line `sep=;`, as spreadsheets write and read it, names what parts
+/// them instead: any ASCII character that is no letter, digit or quote.
 class CsvReader {
  public:
   enum class Line { row, comment, end };
@@ -36,9 +38,10 @@ class CsvReader {
   /// `text` is kept by the caller. Errors name `where`:line.
   CsvReader(std::string_view text, std::string where, const CsvForm& form = {});
 
-  /// Goes on to the next row or comment; lines of blanks are passed over. Throws Error(where:line, ...) for a quote that does not close, for more
-  /// fields or rows than the form has, for a row with more or fewer fields than the heading, and where the form asks for it for what is no plain
-  /// text.
+  /// Goes on to the next row or comment; lines of blanks are passed over. Throws Error(where:line,
+  /// ...) for a quote that does not close, for more fields or rows than the form has, for a row
+  /// with more or fewer fields than the heading, and where the form asks for it for what is no
+  /// plain text.
   Line next();
   /// The same, comments passed over. False at the end.
   bool next_row();
@@ -53,7 +56,9 @@ class CsvReader {
   /// What parts the fields; known once the heading was read.
   [[nodiscard]] char separator() const noexcept { return separator_; }
   /// Throws Error(where:line, what, what_to_do).
-  [[noreturn]] void fail(const Message& what, const Message& what_to_do) const { fail(General::error, what, what_to_do); }
+  [[noreturn]] void fail(const Message& what, const Message& what_to_do) const {
+    fail(General::error, what, what_to_do);
+  }
   [[noreturn]] void fail(ErrorCode code, const Message& what, const Message& what_to_do) const;
 
  private:
@@ -81,11 +86,13 @@ struct CsvRow {
   std::vector<std::string> fields;
 };
 /// All rows of a small table, the heading first. Throws what CsvReader throws.
-[[nodiscard]] std::vector<CsvRow> parse_csv(std::string_view text, const std::string& where, const CsvForm& form = {});
+[[nodiscard]] std::vector<CsvRow> parse_csv(std::string_view text, const std::string& where,
+                                            const CsvForm& form = {});
 
 /// The same without spaces and tabs at its ends.
 [[nodiscard]] std::string_view without_blanks(std::string_view text) noexcept;
-/// The number that is all of a field, with a decimal point; a + before it is allowed. None when it is no number, or not finite.
+/// The number that is all of a field, with a decimal point; a + before it is allowed. None when it
+/// is no number, or not finite.
 [[nodiscard]] std::optional<double> number_in_field(std::string_view field) noexcept;
 
 }  // namespace cavum

@@ -5,7 +5,10 @@
 namespace cavum {
 namespace {
 
-int variant_of(Base64 form) { return form == Base64::padded ? sodium_base64_VARIANT_ORIGINAL : sodium_base64_VARIANT_URLSAFE_NO_PADDING; }
+int variant_of(Base64 form) {
+  return form == Base64::padded ? sodium_base64_VARIANT_ORIGINAL
+                                : sodium_base64_VARIANT_URLSAFE_NO_PADDING;
+}
 
 }  // namespace
 
@@ -19,7 +22,9 @@ std::string to_hex(std::span<const std::uint8_t> bytes) {
 std::optional<Bytes> from_hex(std::string_view text) {
   Bytes out(text.size() / 2);
   std::size_t n = 0;
-  if (sodium_hex2bin(out.data(), out.size(), text.data(), text.size(), nullptr, &n, nullptr) != 0 || to_hex(out) != text) return {};
+  if (sodium_hex2bin(out.data(), out.size(), text.data(), text.size(), nullptr, &n, nullptr) != 0 ||
+      to_hex(out) != text)
+    return {};
   return out;
 }
 
@@ -33,9 +38,12 @@ std::string to_base64(std::span<const std::uint8_t> bytes, Base64 form) {
 std::optional<Bytes> from_base64(std::string_view text, Base64 form) {
   Bytes out(text.size());
   std::size_t n = 0;
-  if (sodium_base642bin(out.data(), out.size(), text.data(), text.size(), nullptr, &n, nullptr, variant_of(form)) != 0) return {};
+  if (sodium_base642bin(out.data(), out.size(), text.data(), text.size(), nullptr, &n, nullptr,
+                        variant_of(form)) != 0)
+    return {};
   out.resize(n);
-  return to_base64(out, form) == text ? std::optional(std::move(out)) : std::nullopt;  // libsodium reads bytes above 127 as '/'
+  return to_base64(out, form) == text ? std::optional(std::move(out))
+                                      : std::nullopt;  // libsodium reads bytes above 127 as '/'
 }
 
 }  // namespace cavum

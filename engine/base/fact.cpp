@@ -16,8 +16,10 @@ void write(Json& json, const Fact& fact) {
 
 }  // namespace
 
-Fact::Fact(std::string_view kind, std::vector<const char*> names, Message what) : kind_(kind), what_(std::move(what)) {
-  if (names.size() != what_.values().size()) throw std::logic_error("a fact has another number of values");
+Fact::Fact(std::string_view kind, std::vector<const char*> names, Message what)
+    : kind_(kind), what_(std::move(what)) {
+  if (names.size() != what_.values().size())
+    throw std::logic_error("a fact has another number of values");
   for (std::size_t i = 0; i < names.size(); ++i) values_.emplace_back(names[i], what_.values()[i]);
 }
 

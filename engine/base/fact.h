@@ -1,4 +1,5 @@
-// What is said of something, for programs and for people: its kind, its values by name, and the sentence. Who decides asks for the kind.
+// What is said of something, for programs and for people: its kind, its values by name, and the
+// sentence. Who decides asks for the kind.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,7 +14,8 @@ namespace cavum {
 class Fact {
  public:
   Fact() = default;
-  /// `names`: of the sentence's values, in their order. `kind` and they are literals. Throws std::logic_error when they are not as many.
+  /// `names`: of the sentence's values, in their order. `kind` and they are literals. Throws
+  /// std::logic_error when they are not as many.
   Fact(std::string_view kind, std::vector<const char*> names, Message what);
   Fact(std::string_view kind, Message what) : Fact(kind, {}, std::move(what)) {}
   /// With a value that its sentence does not say.
@@ -22,7 +24,9 @@ class Fact {
   [[nodiscard]] bool empty() const noexcept { return what_.empty(); }
   [[nodiscard]] std::string_view kind() const noexcept { return kind_; }
   [[nodiscard]] const Message& what() const noexcept { return what_; }
-  [[nodiscard]] const std::vector<std::pair<std::string_view, Value>>& values() const noexcept { return values_; }
+  [[nodiscard]] const std::vector<std::pair<std::string_view, Value>>& values() const noexcept {
+    return values_;
+  }
   friend bool operator==(const Fact&, const Fact&) = default;
 
  private:

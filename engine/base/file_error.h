@@ -1,4 +1,5 @@
-// What can be wrong with a file, or with a text that has the form of one, for whoever has to tell one from another.
+// What can be wrong with a file, or with a text that has the form of one, for whoever has to tell
+// one from another.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +26,7 @@ namespace cavum {
   ERROR(unsupported)  /* whole, and not read by us */
 // clang-format on
 CAVUM_NAMED_ENUM(FileError, CAVUM_FILE_ERRORS)
-inline constexpr std::uint32_t k_file_errors = static_cast<std::uint32_t>(FileError::unsupported) + 1;
+inline constexpr std::uint32_t k_file_errors =
+    static_cast<std::uint32_t>(FileError::unsupported) + 1;
 
 }  // namespace cavum

@@ -8,7 +8,8 @@ namespace cavum {
 
 std::string file_name_of(std::string_view text) {
   constexpr std::size_t k_longest = 120, k_mark = 9;
-  constexpr std::string_view k_kept = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
+  constexpr std::string_view k_kept =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
   std::string name(text.substr(0, k_longest));
   for (char& c : name)
     if (k_kept.find(c) == std::string_view::npos) c = '_';

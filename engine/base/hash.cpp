@@ -11,8 +11,12 @@ Sha256 sha256(std::span<const std::uint8_t> bytes) {
   return out;
 }
 
-Sha256 sha256(const std::string& text) { return sha256(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size())); }
+Sha256 sha256(const std::string& text) {
+  return sha256(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
 
-std::uint64_t fast_hash(const void* data, std::size_t size, std::uint64_t seed) noexcept { return XXH3_64bits_withSeed(data, size, seed); }
+std::uint64_t fast_hash(const void* data, std::size_t size, std::uint64_t seed) noexcept {
+  return XXH3_64bits_withSeed(data, size, seed);
+}
 
 }  // namespace cavum

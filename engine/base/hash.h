@@ -17,6 +17,7 @@ using Sha256 = std::array<std::uint8_t, 32>;
 [[nodiscard]] Sha256 sha256(const std::string& text);
 
 /// XXH3, 64 bits, of `size` bytes at `data`; not for evidence.
-[[nodiscard]] std::uint64_t fast_hash(const void* data, std::size_t size, std::uint64_t seed) noexcept;
+[[nodiscard]] std::uint64_t fast_hash(const void* data, std::size_t size,
+                                      std::uint64_t seed) noexcept;
 
 }  // namespace cavum

@@ -1,5 +1,5 @@
-// Runs that know nothing of one another, on several threads. Each has its own seed and its own place for the result, so
-// the figures do not depend on the number of threads or on their order.
+// Runs that know nothing of one another, on several threads. Each has its own seed and its own
+// place for the result, so the figures do not depend on the number of threads or on their order.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,9 @@
 
 namespace cavum {
 
-/// Calls `run(i)` for i in [0, count), on `threads` threads (0: one for each core), and returns when all have ended. After a failure no further one
-/// begins; throws what the first failing one (by number) threw.
+/// Calls `run(i)` for i in [0, count), on `threads` threads (0: one for each core), and returns
+/// when all have ended. After a failure no further one begins; throws what the first failing one
+/// (by number) threw.
 template <class Run>
 void independent_runs(std::size_t count, const Run& run, std::size_t threads = 0) {
   std::atomic<std::size_t> next{0};
@@ -27,7 +28,9 @@ void independent_runs(std::size_t count, const Run& run, std::size_t threads = 0
   };
   {
     std::vector<std::jthread> others;
-    for (std::size_t t = std::min<std::size_t>(threads > 0 ? threads : std::thread::hardware_concurrency(), count); t > 1; --t)
+    for (std::size_t t = std::min<std::size_t>(
+             threads > 0 ? threads : std::thread::hardware_concurrency(), count);
+         t > 1; --t)
       others.emplace_back(work);
     work();
   }

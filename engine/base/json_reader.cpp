@@ -17,11 +17,13 @@ using nlohmann::json;
 Message place_of(std::string_view text, std::size_t byte) {
   const std::string_view before = text.substr(0, byte > 0 ? byte - 1 : 0);
   const auto line_from = before.rfind('\n') + 1;  // npos + 1 is 0
-  return msg("line {}, column {}", std::count(before.begin(), before.end(), '\n') + 1, before.size() - line_from + 1);
+  return msg("line {}, column {}", std::count(before.begin(), before.end(), '\n') + 1,
+             before.size() - line_from + 1);
 }
 
-/// Walks through the text and keeps nothing of it. The library's own callback, which could count while it keeps, looks at all members of an object
-/// again after each that is an object: 330,000 take minutes.
+/// Walks through the text and keeps nothing of it. The library's own callback, which could count
+/// while it keeps, looks at all members of an object again after each that is an object: 330,000
+/// take minutes.
 class Count {
  public:
   using Refuse = std::function<void(const Message&)>;
@@ -44,11 +46,13 @@ class Count {
 
  private:
   bool value() {
-    if (++values_ > limits_.values) refuse_(msg("holds JSON of more than {} values", limits_.values));
+    if (++values_ > limits_.values)
+      refuse_(msg("holds JSON of more than {} values", limits_.values));
     return true;
   }
   bool open() {
-    if (depth_++ >= limits_.depth) refuse_(msg("holds JSON that is nested deeper than {}", limits_.depth));
+    if (depth_++ >= limits_.depth)
+      refuse_(msg("holds JSON that is nested deeper than {}", limits_.depth));
     return value();
   }
   bool close() {
@@ -64,17 +68,21 @@ class Count {
 
 json parse_json(std::string_view text, const Where& where, const JsonLimits& limits) {
   const auto refuse = [&where](const Message& what) {
-    throw Error(FileError::too_large, where, what, msg("use an intact file: nothing that Cavum writes is like that"));
+    throw Error(FileError::too_large, where, what,
+                msg("use an intact file: nothing that Cavum writes is like that"));
   };
-  if (text.size() > limits.bytes) refuse(msg("holds JSON of {} bytes, more than {}", text.size(), limits.bytes));
+  if (text.size() > limits.bytes)
+    refuse(msg("holds JSON of {} bytes, more than {}", text.size(), limits.bytes));
   Count counted(limits, refuse);
   static_cast<void>(json::sax_parse(text, &counted));
   try {
     return json::parse(text);
   } catch (const json::parse_error& e) {
-    throw Error(FileError::malformed, where, msg("is no JSON ({})", place_of(text, e.byte)), msg("correct it, or use an intact copy"));
+    throw Error(FileError::malformed, where, msg("is no JSON ({})", place_of(text, e.byte)),
+                msg("correct it, or use an intact copy"));
   } catch (const json::exception&) {
-    throw Error(FileError::out_of_range, where, msg("holds a number that is too large"), msg("correct it, or use an intact copy"));
+    throw Error(FileError::out_of_range, where, msg("holds a number that is too large"),
+                msg("correct it, or use an intact copy"));
   }
 }
 

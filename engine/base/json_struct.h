@@ -1,6 +1,7 @@
-// Structs as JSON. A struct says once which of its members it has there; from that come writing, reading within limits, and the description of the
-// type for the pages. A refusal names the field. CAVUM_JSON declares the members and names them; a struct that is declared elsewhere has a template
-// json_fields in its namespace, which CAVUM_JSON_OF(Seat, (station), (ticket)) writes.
+// Structs as JSON. A struct says once which of its members it has there; from that come writing,
+// reading within limits, and the description of the type for the pages. A refusal names the field.
+// CAVUM_JSON declares the members and names them; a struct that is declared elsewhere has a
+// template json_fields in its namespace, which CAVUM_JSON_OF(Seat, (station), (ticket)) writes.
 #pragma once
 
 #include <fmt/format.h>
@@ -34,18 +35,21 @@
 #define CAVUM_EXPAND2(...) CAVUM_EXPAND1(CAVUM_EXPAND1(CAVUM_EXPAND1(__VA_ARGS__)))
 #define CAVUM_EXPAND1(...) __VA_ARGS__
 #define CAVUM_EACH(MACRO, ...) CAVUM_EXPAND(CAVUM_EACH_NEXT(MACRO, __VA_ARGS__))
-#define CAVUM_EACH_NEXT(MACRO, ITEM, ...) MACRO ITEM __VA_OPT__(CAVUM_EACH_NEXT_NAME CAVUM_AGAIN(MACRO, __VA_ARGS__))
+#define CAVUM_EACH_NEXT(MACRO, ITEM, ...) \
+  MACRO ITEM __VA_OPT__(CAVUM_EACH_NEXT_NAME CAVUM_AGAIN(MACRO, __VA_ARGS__))
 #define CAVUM_EACH_NEXT_NAME() CAVUM_EACH_NEXT
 #define CAVUM_NAME(NAME, ...) of(#NAME, self.NAME __VA_OPT__(, JsonField::__VA_ARGS__));
-/// In a json_fields(of, self): members by their own names, each (name), (name, optional) or (name, sparse).
+/// In a json_fields(of, self): members by their own names, each (name), (name, optional) or (name,
+/// sparse).
 #define CAVUM_NAMES(...) CAVUM_EACH(CAVUM_NAME, __VA_ARGS__)
 #define CAVUM_JSON_OF(TYPE, ...) \
   void json_fields(auto& of, JsonOf<TYPE> auto& self) { CAVUM_NAMES(__VA_ARGS__) }
 #define CAVUM_MEMBER(TYPE, NAME, ...) TYPE NAME = {};
 #define CAVUM_TELL(TYPE, NAME, ...) what(#NAME, self.NAME __VA_OPT__(, JsonField::__VA_ARGS__));
 #define CAVUM_LIMITED(TYPE, NAME, ...) &&is_limited<TYPE>()
-/// Members of a struct, each (type, name) or (type, name, optional). One that is optional may be missing, or null, and then keeps its value. So may a
-/// std::optional, which is left out where it is empty.
+/// Members of a struct, each (type, name) or (type, name, optional). One that is optional may be
+/// missing, or null, and then keeps its value. So may a std::optional, which is left out where it
+/// is empty.
 #define CAVUM_FIELDS(...)                                    \
   CAVUM_EACH(CAVUM_MEMBER, __VA_ARGS__)                      \
   template <class Self, class What>                          \
@@ -66,7 +70,8 @@
 
 namespace cavum {
 
-/// A field is always there; or may be missing, and then keeps its value; or is left out where it is empty, as an empty std::optional always is.
+/// A field is always there; or may be missing, and then keeps its value; or is left out where it is
+/// empty, as an empty std::optional always is.
 enum class JsonField { always, optional, sparse };
 
 /// A text or list of so many bytes or elements.
@@ -74,7 +79,9 @@ template <class T, std::size_t most>
 struct AtMost : T {
   AtMost() = default;
   template <std::convertible_to<T> From>
-  AtMost(From&& from) : T(std::forward<From>(from)) {}  // NOLINT(bugprone-forwarding-reference-overload): of its own kind it is the same
+  AtMost(From&& from)
+      : T(std::forward<From>(from)) {
+  }  // NOLINT(bugprone-forwarding-reference-overload): of its own kind it is the same
   static constexpr std::size_t k_most = most;
 };
 template <std::size_t most_bytes>
@@ -158,7 +165,8 @@ concept JsonList = requires(T t) {
 template <class T>
 [[nodiscard]] consteval bool is_limited() {
   if constexpr (JsonDeclared<T>) {
-    if constexpr (requires { typename T::Base; }) return T::k_limited && is_limited<typename T::Base>();
+    if constexpr (requires { typename T::Base; })
+      return T::k_limited && is_limited<typename T::Base>();
     return T::k_limited;
   } else if constexpr (k_is_optional<T>) {
     return is_limited<typename T::value_type>();
@@ -170,7 +178,10 @@ template <class T>
   } else if constexpr (std::derived_from<T, std::string>) {
     return requires { T::k_most; };
   } else {
-    return std::is_arithmetic_v<T> || std::is_enum_v<T> || std::same_as<T, nlohmann::json> || requires { T::k_least; };
+    return std::is_arithmetic_v<T> || std::is_enum_v<T> || std::same_as<T, nlohmann::json> ||
+           requires {
+      T::k_least;
+    };
   }
 }
 
@@ -189,7 +200,9 @@ template <class T, class What>
 void each_field(T& of, const What& what) {
   using Plain = std::remove_const_t<T>;
   if constexpr (requires { typename Plain::Base; })
-    each_field(static_cast<std::conditional_t<std::is_const_v<T>, const typename Plain::Base, typename Plain::Base>&>(of), what);
+    each_field(static_cast<std::conditional_t<std::is_const_v<T>, const typename Plain::Base,
+                                              typename Plain::Base>&>(of),
+               what);
   if constexpr (JsonDeclared<Plain>)
     Plain::each_own_field(of, what);
   else
@@ -209,7 +222,8 @@ template <class T>
     return false;
 }
 
-/// A type that is none of those below has write_json(value) and read_json(json, place, into) beside it.
+/// A type that is none of those below has write_json(value) and read_json(json, place, into) beside
+/// it.
 template <class T>
 [[nodiscard]] nlohmann::json to_json_value(const T& value) {
   using nlohmann::json;
@@ -217,7 +231,8 @@ template <class T>
     return write_json(value);
   } else if constexpr (JsonStruct<const T>) {
     json out = json::object();
-    each_field(value, [&]<class Member>(const char* name, const Member& member, JsonField field = JsonField::always) {
+    each_field(value, [&]<class Member>(const char* name, const Member& member,
+                                        JsonField field = JsonField::always) {
       if (!is_left_out(member, field)) out[name] = to_json_value(member);
     });
     return out;
@@ -254,62 +269,75 @@ template <class T>
 struct JsonSource {
   Where where;  ///< begins what a refusal says; may be empty
   Message advice;
-  bool strict = true;                                           ///< what has no field, and null for a field, is refused
-  std::size_t most_bytes = SIZE_MAX, most_elements = SIZE_MAX;  ///< of a text or list that has no limit of its own
-  double largest = std::numeric_limits<double>::infinity();     ///< of numbers
+  bool strict = true;  ///< what has no field, and null for a field, is refused
+  std::size_t most_bytes = SIZE_MAX,
+              most_elements = SIZE_MAX;  ///< of a text or list that has no limit of its own
+  double largest = std::numeric_limits<double>::infinity();  ///< of numbers
 };
 /// A field of it, as a refusal says it: "sitting.exam"; empty: all of it.
-struct JsonPlace {
+struct JsonLocation {
   const JsonSource& source;
   std::string field = {};
-  [[nodiscard]] JsonPlace member(std::string_view name) const { return {source, fmt::format("{}{}{}", field, field.empty() ? "" : ".", name)}; }
+  [[nodiscard]] JsonLocation member(std::string_view name) const {
+    return {source, fmt::format("{}{}{}", field, field.empty() ? "" : ".", name)};
+  }
   [[nodiscard]] Message text() const {
     if (field.empty()) return source.where;
     const std::string short_field = one_line(field.substr(0, 200));
-    return source.where.empty() ? msg("'{}'", short_field) : msg("{}: '{}'", source.where, short_field);
+    return source.where.empty() ? msg("'{}'", short_field)
+                                : msg("{}: '{}'", source.where, short_field);
   }
-  [[noreturn]] void refuse(const Message& is, FileError code = FileError::wrong_type) const { throw Error(code, text(), is, source.advice); }
+  [[noreturn]] void refuse(const Message& is, FileError code = FileError::wrong_type) const {
+    throw Error(code, text(), is, source.advice);
+  }
   void require(bool good, const Message& is, FileError code = FileError::wrong_type) const {
     if (!good) refuse(is, code);
   }
 };
 
 template <class T>
-void read_fields(const nlohmann::json& from, const JsonPlace& at, T& into) {
+void read_fields(const nlohmann::json& from, const JsonLocation& at, T& into) {
   at.require(from.is_object(), msg("is no object"));
   std::set<std::string> known;
-  each_field(into, [&]<class Member>(const char* name, Member&& member, JsonField field = JsonField::always) {
+  each_field(into, [&]<class Member>(const char* name, Member&& member,
+                                     JsonField field = JsonField::always) {
     known.insert(name);
     const auto found = from.find(name);
-    if (found != from.end() && (at.source.strict || !found->is_null())) return read_json_value(*found, at.member(name), member);
-    if (field == JsonField::always && !k_is_optional<std::remove_cvref_t<Member>>) at.member(name).refuse(msg("is missing"), FileError::missing);
+    if (found != from.end() && (at.source.strict || !found->is_null()))
+      return read_json_value(*found, at.member(name), member);
+    if (field == JsonField::always && !k_is_optional<std::remove_cvref_t<Member>>)
+      at.member(name).refuse(msg("is missing"), FileError::missing);
   });
   if (at.source.strict)
     for (const auto& [name, value] : from.items())
-      if (!known.contains(name)) at.member(name).refuse(msg("has no place here"), FileError::unknown);
+      if (!known.contains(name))
+        at.member(name).refuse(msg("has no place here"), FileError::unknown);
 }
 
 /// Or a yes or no.
 template <class T>
-void read_number(const nlohmann::json& from, const JsonPlace& at, T& into) {
+void read_number(const nlohmann::json& from, const JsonLocation& at, T& into) {
   if constexpr (std::same_as<T, bool>) {
     at.require(from.is_boolean(), msg("is neither true nor false"));
   } else if constexpr (std::integral<T>) {
-    const bool fits = from.is_number_unsigned() ? std::in_range<T>(from.template get<std::uint64_t>())
-                                                : from.is_number_integer() && sizeof(T) == sizeof(std::int64_t) &&  // smaller ones are counts
-                                                      std::in_range<T>(from.template get<std::int64_t>());
+    const bool fits = from.is_number_unsigned()
+                          ? std::in_range<T>(from.template get<std::uint64_t>())
+                          : from.is_number_integer() &&
+                                sizeof(T) == sizeof(std::int64_t) &&  // smaller ones are counts
+                                std::in_range<T>(from.template get<std::int64_t>());
     at.require(fits, msg("is no whole number in its range"), FileError::out_of_range);
   } else {
     at.require(from.is_number(), msg("is no number"));
   }
   into = from;
   if constexpr (std::floating_point<T>)
-    at.require(std::fabs(into) <= at.source.largest, msg("is larger than {}", as_number(at.source.largest)), FileError::out_of_range);
+    at.require(std::fabs(into) <= at.source.largest,
+               msg("is larger than {}", as_number(at.source.largest)), FileError::out_of_range);
 }
 
 /// Throws Error when `from` is none, or beyond a limit.
 template <class T>
-void read_json_value(const nlohmann::json& from, const JsonPlace& at, T& into) {
+void read_json_value(const nlohmann::json& from, const JsonLocation& at, T& into) {
   if constexpr (requires { read_json(from, at, into); }) {
     read_json(from, at, into);
   } else if constexpr (JsonStruct<T>) {
@@ -318,14 +346,16 @@ void read_json_value(const nlohmann::json& from, const JsonPlace& at, T& into) {
     read_json_value(from, at, into.emplace());
   } else if constexpr (NamedEnum<T>) {
     const auto names = names_of(into);
-    const auto found = std::find(names.begin(), names.end(), from.is_string() ? from.template get<std::string>() : "\n");
+    const auto found = std::find(names.begin(), names.end(),
+                                 from.is_string() ? from.template get<std::string>() : "\n");
     at.require(found != names.end(), msg("is none of: {}", list_of(names)));
     into = static_cast<T>(found - names.begin());
   } else if constexpr (std::same_as<T, JsonFormat>) {
     at.require(from == into.text, msg("is not '{}'", into.text));
   } else if constexpr (std::same_as<T, Vec3>) {
     at.require(from.is_array() && from.size() == 3, msg("is no place: three numbers"));
-    read_json_value(from[0], at, into.x), read_json_value(from[1], at, into.y), read_json_value(from[2], at, into.z);
+    read_json_value(from[0], at, into.x), read_json_value(from[1], at, into.y),
+        read_json_value(from[2], at, into.z);
   } else if constexpr (std::same_as<T, Message> || std::same_as<T, std::vector<Message>>) {
     try {
       if constexpr (std::same_as<T, Message>)
@@ -347,10 +377,14 @@ void read_json_value(const nlohmann::json& from, const JsonPlace& at, T& into) {
     if constexpr (requires { T::k_most; }) most = T::k_most;
     at.require(from.is_array(), msg("is no list"));
     at.require(from.size() <= most, msg("has more than {} elements", most), FileError::too_large);
-    for (std::size_t i = 0; i < from.size(); ++i) read_json_value(from[i], {at.source, fmt::format("{}[{}]", at.field, i)}, into.emplace_back());
+    for (std::size_t i = 0; i < from.size(); ++i)
+      read_json_value(from[i], {at.source, fmt::format("{}[{}]", at.field, i)},
+                      into.emplace_back());
   } else if constexpr (requires { std::tuple_size<T>::value; }) {
-    at.require(from.is_array() && from.size() == into.size(), msg("is no list of {} elements", into.size()));
-    for (std::size_t i = 0; i < into.size(); ++i) read_json_value(from[i], {at.source, fmt::format("{}[{}]", at.field, i)}, into[i]);
+    at.require(from.is_array() && from.size() == into.size(),
+               msg("is no list of {} elements", into.size()));
+    for (std::size_t i = 0; i < into.size(); ++i)
+      read_json_value(from[i], {at.source, fmt::format("{}[{}]", at.field, i)}, into[i]);
   } else if constexpr (std::derived_from<T, std::string>) {
     at.require(from.is_string(), msg("is no text"));
     static_cast<std::string&>(into) = from.template get<std::string>();
@@ -362,7 +396,8 @@ void read_json_value(const nlohmann::json& from, const JsonPlace& at, T& into) {
     read_number(from, at, into);
   } else if constexpr (requires { T::k_least; }) {
     read_json_value(from, at, into.value);
-    at.require(into.value >= T::k_least && into.value <= T::k_most, msg("is not between {} and {}", T::k_least, T::k_most), FileError::out_of_range);
+    at.require(into.value >= T::k_least && into.value <= T::k_most,
+               msg("is not between {} and {}", T::k_least, T::k_most), FileError::out_of_range);
   } else {
     static_assert(std::same_as<T, nlohmann::json>);
     into = from;
@@ -373,7 +408,7 @@ void read_json_value(const nlohmann::json& from, const JsonPlace& at, T& into) {
 template <class T>
 [[nodiscard]] T json_value_of(const nlohmann::json& from, const JsonSource& source) {
   T out{};
-  read_json_value(from, JsonPlace{source}, out);
+  read_json_value(from, JsonLocation{source}, out);
   return out;
 }
 

@@ -8,12 +8,14 @@ namespace cavum {
 namespace {
 
 std::size_t characters(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xc0U) != 0x80U; }));
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](unsigned char c) { return (c & 0xc0U) != 0x80U; }));
 }
 
 bool is_figure(const Message& m) {
   if (m.empty() || std::string_view(m.english()) != "{}" || m.values().size() != 1) return false;
-  return std::holds_alternative<std::int64_t>(m.values().front()) || std::holds_alternative<Number>(m.values().front());
+  return std::holds_alternative<std::int64_t>(m.values().front()) ||
+         std::holds_alternative<Number>(m.values().front());
 }
 
 template <class TextOf>
@@ -22,7 +24,8 @@ std::string laid_out(const std::vector<Lines::Line>& lines, const TextOf& text_o
   std::string out;
   for (std::size_t first = 0; first < lines.size();) {
     std::size_t end = first + 1;
-    while (end < lines.size() && lines[first].cells.size() > 1 && lines[end].indent == lines[first].indent &&
+    while (end < lines.size() && lines[first].cells.size() > 1 &&
+           lines[end].indent == lines[first].indent &&
            lines[end].cells.size() == lines[first].cells.size())
       ++end;
     std::vector<std::vector<std::string>> rows;

@@ -1,4 +1,5 @@
-// Several lines for a person: sentences, and rows whose cells stand below each other. Like a message, without a language until a face renders them.
+// Several lines for a person: sentences, and rows whose cells stand below each other. Like a
+// message, without a language until a face renders them.
 #pragma once
 
 #include <string>
@@ -15,8 +16,11 @@ class Lines {
     std::vector<Message> cells;  ///< one: a sentence; more: a row; none: an empty line
   };
   void add(Message sentence, int indent = 0) { all_.push_back({indent, {std::move(sentence)}}); }
-  /// Rows one after another with the same indent and number of cells make a table: each column as wide as its widest cell, figures to the right.
-  void row(std::vector<Message> cells, int indent = 0) { all_.push_back({indent, std::move(cells)}); }
+  /// Rows one after another with the same indent and number of cells make a table: each column as
+  /// wide as its widest cell, figures to the right.
+  void row(std::vector<Message> cells, int indent = 0) {
+    all_.push_back({indent, std::move(cells)});
+  }
   void gap() { all_.emplace_back(); }
   void append(const Lines& more, int indent = 0) {
     for (Line l : more.all_) {
@@ -31,7 +35,8 @@ class Lines {
   std::vector<Line> all_;
 };
 
-/// Each line with its end. What is rendered of a cell stands on one line, whatever a file wrote there.
+/// Each line with its end. What is rendered of a cell stands on one line, whatever a file wrote
+/// there.
 [[nodiscard]] std::string render(const Lines& lines, const Locale& locale);
 [[nodiscard]] std::string english_text(const Lines& lines);
 

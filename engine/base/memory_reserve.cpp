@@ -37,7 +37,8 @@ bool memory_ran_out() noexcept { return g_ran_out; }
 
 void require_memory(const std::string& where) {
   if (memory_ran_out())
-    throw Error(MemoryError::ran_out, Name{where}, msg("there was not enough memory, and nothing was entered"),
+    throw Error(MemoryError::ran_out, Name{where},
+                msg("there was not enough memory, and nothing was entered"),
                 msg("close other programs, and try again"));
 }
 

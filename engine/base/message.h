@@ -1,6 +1,8 @@
-// What Cavum has to say to a person, before it is put into words: a sentence with gaps, as it stands in the source in English, and the typed values
-// that belong into the gaps. Rooms make messages; a face (command line, window, office, report) renders them in the reader's language, with its
-// number format and plural forms. Nothing is decided by a rendered text, and nothing is read back from one.
+// What Cavum has to say to a person, before it is put into words: a sentence with gaps, as it
+// stands in the source in English, and the typed values that belong into the gaps. Rooms make
+// messages; a face (command line, window, office, report) renders them in the reader's language,
+// with its number format and plural forms. Nothing is decided by a rendered text, and nothing is
+// read back from one.
 #pragma once
 
 #include <fmt/core.h>
@@ -20,7 +22,24 @@
 
 namespace cavum {
 
-enum class Unit : std::uint8_t { none, mm, mm2, mm3, um, newton, deg, second, minute, ms, rpm, percent, hz, mm_per_s, n_per_mm, byte };
+enum class Unit : std::uint8_t {
+  none,
+  mm,
+  mm2,
+  mm3,
+  um,
+  newton,
+  deg,
+  second,
+  minute,
+  ms,
+  rpm,
+  percent,
+  hz,
+  mm_per_s,
+  n_per_mm,
+  byte
+};
 /// "mm³", "N", "%"; empty for none.
 [[nodiscard]] std::string_view unit_sign(Unit unit) noexcept;
 /// "mm3", "N", "%", as JSON and files have it; empty for none.
@@ -28,7 +47,8 @@ enum class Unit : std::uint8_t { none, mm, mm2, mm3, um, newton, deg, second, mi
 /// None where it is no unit of ours.
 [[nodiscard]] std::optional<Unit> unit_of(std::string_view id) noexcept;
 
-/// A figure: rendered with `digits` after the point (k_as_needed: up to six significant ones), its bound behind ± where it has one, and its unit.
+/// A figure: rendered with `digits` after the point (k_as_needed: up to six significant ones), its
+/// bound behind ± where it has one, and its unit.
 struct Number {
   double value = 0.0;
   Unit unit = Unit::none;
@@ -39,44 +59,67 @@ struct Number {
 };
 inline constexpr int k_as_needed = -1;
 
-[[nodiscard]] constexpr Number as_number(double v, int digits = k_as_needed) noexcept { return {v, Unit::none, digits}; }
-[[nodiscard]] constexpr Number as_mm(double v, int digits = 2, double bound = 0) noexcept { return {v, Unit::mm, digits, bound}; }
-[[nodiscard]] constexpr Number as_mm2(double v, int digits = 2, double bound = 0) noexcept { return {v, Unit::mm2, digits, bound}; }
-[[nodiscard]] constexpr Number as_mm3(double v, int digits = 2, double bound = 0) noexcept { return {v, Unit::mm3, digits, bound}; }
-[[nodiscard]] constexpr Number as_n(double v, int digits = 2, double bound = 0) noexcept { return {v, Unit::newton, digits, bound}; }
-[[nodiscard]] constexpr Number as_deg(double v, int digits = 0, double bound = 0) noexcept { return {v, Unit::deg, digits, bound}; }
-[[nodiscard]] constexpr Number as_s(double v, int digits = 2, double bound = 0) noexcept { return {v, Unit::second, digits, bound}; }
-[[nodiscard]] constexpr Number as_percent(double v, int digits = 0, double bound = 0) noexcept { return {v, Unit::percent, digits, bound}; }
+[[nodiscard]] constexpr Number as_number(double v, int digits = k_as_needed) noexcept {
+  return {v, Unit::none, digits};
+}
+[[nodiscard]] constexpr Number as_mm(double v, int digits = 2, double bound = 0) noexcept {
+  return {v, Unit::mm, digits, bound};
+}
+[[nodiscard]] constexpr Number as_mm2(double v, int digits = 2, double bound = 0) noexcept {
+  return {v, Unit::mm2, digits, bound};
+}
+[[nodiscard]] constexpr Number as_mm3(double v, int digits = 2, double bound = 0) noexcept {
+  return {v, Unit::mm3, digits, bound};
+}
+[[nodiscard]] constexpr Number as_n(double v, int digits = 2, double bound = 0) noexcept {
+  return {v, Unit::newton, digits, bound};
+}
+[[nodiscard]] constexpr Number as_deg(double v, int digits = 0, double bound = 0) noexcept {
+  return {v, Unit::deg, digits, bound};
+}
+[[nodiscard]] constexpr Number as_s(double v, int digits = 2, double bound = 0) noexcept {
+  return {v, Unit::second, digits, bound};
+}
+[[nodiscard]] constexpr Number as_percent(double v, int digits = 0, double bound = 0) noexcept {
+  return {v, Unit::percent, digits, bound};
+}
 /// Points of a mark, which a sentence names itself: "{} of {} points".
-[[nodiscard]] constexpr Number as_points(double v, int digits = 1) noexcept { return {v, Unit::none, digits}; }
-[[nodiscard]] constexpr Number as_unit(double v, Unit unit, int digits = k_as_needed) noexcept { return {v, unit, digits}; }
+[[nodiscard]] constexpr Number as_points(double v, int digits = 1) noexcept {
+  return {v, Unit::none, digits};
+}
+[[nodiscard]] constexpr Number as_unit(double v, Unit unit, int digits = k_as_needed) noexcept {
+  return {v, unit, digits};
+}
 
 /// A time of an exam as a clock shows it: "1:05".
 struct ClockTime {
   double seconds = 0.0;
   friend bool operator==(const ClockTime&, const ClockTime&) = default;
 };
-/// A name, path, identifier or anything else that a person or a file wrote: in every language as it is.
+/// A name, path, identifier or anything else that a person or a file wrote: in every language as it
+/// is.
 struct Name {
   std::string text;
   friend bool operator==(const Name&, const Name&) = default;
 };
-/// A word of the field that data name (a tissue, a wall): in the reader's language where the catalogue has it, else as it is.
+/// A word of the field that data name (a tissue, a wall): in the reader's language where the
+/// catalogue has it, else as it is.
 struct Term {
   std::string english;
   friend bool operator==(const Term&, const Term&) = default;
 };
-/// A sentence of a scenario's author: in the reader's language where its file has it in that language, else as it is.
+/// A sentence of a scenario's author: in the reader's language where its file has it in that
+/// language, else as it is.
 struct Authored {
   std::string english;
   friend bool operator==(const Authored&, const Authored&) = default;
 };
 
 /// A place in a file, "file:line:column"; line and column from 1, 0 = of which nothing is known.
-struct FilePlace {
+struct FileLocation {
   std::string file;
   int line = 0, column = 0;
-  friend bool operator==(const FilePlace&, const FilePlace&) = default;
+  friend bool operator==(const FileLocation&, const FileLocation&) = default;
 };
 
 struct Value;
@@ -86,12 +129,13 @@ class Message {
  public:
   Message() = default;
   /// A text that is no sentence of ours: a name, a path.
-  Message(Name name);        // NOLINT(google-explicit-constructor)
-  Message(FilePlace place);  // NOLINT(google-explicit-constructor)
+  Message(Name name);           // NOLINT(google-explicit-constructor)
+  Message(FileLocation place);  // NOLINT(google-explicit-constructor)
   Message(const char* english, const char* plural, std::int64_t count, std::vector<Value> values);
 
   [[nodiscard]] bool empty() const noexcept { return english_ == nullptr; }
-  /// The sentence in English, with gaps as fmt writes them: what the catalogue is asked for. Not for an empty one.
+  /// The sentence in English, with gaps as fmt writes them: what the catalogue is asked for. Not
+  /// for an empty one.
   [[nodiscard]] const char* english() const noexcept { return english_; }
   /// The English plural form, null where the message has one form only; and what it counts.
   [[nodiscard]] const char* plural() const noexcept { return plural_; }
@@ -113,7 +157,8 @@ struct List {
   friend bool operator==(const List&, const List&) = default;
 };
 
-struct Value : std::variant<std::int64_t, Number, ClockTime, Vec3, Name, FilePlace, Term, Authored, List, Message> {
+struct Value : std::variant<std::int64_t, Number, ClockTime, Vec3, Name, FileLocation, Term,
+                            Authored, List, Message> {
   using variant::variant;
 };
 
@@ -147,19 +192,29 @@ using Text = std::string_view;
 
 }  // namespace message_detail
 
-/// `english` with its values: texts are names, numbers have their units (as_mm) or none. xgettext finds the sentence here.
+/// `english` with its values: texts are names, numbers have their units (as_mm) or none. xgettext
+/// finds the sentence here.
 template <class... A>
 [[nodiscard]] Message msg(fmt::format_string<message_detail::Text<A>...> english, A&&... values) {
-  return {fmt::string_view(english).data(), nullptr, 0, {message_detail::value_of(std::forward<A>(values))...}};
+  return {fmt::string_view(english).data(),
+          nullptr,
+          0,
+          {message_detail::value_of(std::forward<A>(values))...}};
 }
-/// The same in the form that `count` takes: `one` where that is 1 in English, else `many`. Both have the same gaps.
+/// The same in the form that `count` takes: `one` where that is 1 in English, else `many`. Both
+/// have the same gaps.
 template <class... A>
-[[nodiscard]] Message msgn(fmt::format_string<message_detail::Text<A>...> one, fmt::format_string<message_detail::Text<A>...> many,
-                           std::int64_t count, A&&... values) {
-  return {fmt::string_view(one).data(), fmt::string_view(many).data(), count, {message_detail::value_of(std::forward<A>(values))...}};
+[[nodiscard]] Message msgn(fmt::format_string<message_detail::Text<A>...> one,
+                           fmt::format_string<message_detail::Text<A>...> many, std::int64_t count,
+                           A&&... values) {
+  return {fmt::string_view(one).data(),
+          fmt::string_view(many).data(),
+          count,
+          {message_detail::value_of(std::forward<A>(values))...}};
 }
 
-/// How a language writes. Two there are: English, which needs no catalogue, and one of a catalogue (ui/language).
+/// How a language writes. Two there are: English, which needs no catalogue, and one of a catalogue
+/// (ui/language).
 class Locale {
  public:
   Locale() = default;
@@ -168,7 +223,8 @@ class Locale {
   virtual ~Locale() = default;
   /// A sentence, or the form of it that `count` takes.
   [[nodiscard]] virtual std::string sentence(const char* english) const = 0;
-  [[nodiscard]] virtual std::string sentence(const char* one, const char* many, std::int64_t count) const = 0;
+  [[nodiscard]] virtual std::string sentence(const char* one, const char* many,
+                                             std::int64_t count) const = 0;
   [[nodiscard]] virtual std::string term(const std::string& english) const = 0;
   [[nodiscard]] virtual std::string authored(const std::string& english) const = 0;
   [[nodiscard]] virtual std::string name(const std::string& text) const = 0;

@@ -60,7 +60,8 @@ void check_gaps(const std::string& english, std::size_t values) {
 Message message_of(const nlohmann::json& j, int depth);
 
 std::vector<Message> messages_of(const nlohmann::json& j, int depth) {
-  if (!j.is_array() || j.size() > k_max_messages) refuse("a list of messages is missing or too long");
+  if (!j.is_array() || j.size() > k_max_messages)
+    refuse("a list of messages is missing or too long");
   std::vector<Message> out;
   for (const auto& m : j) out.push_back(message_of(m, depth));
   return out;
@@ -90,12 +91,14 @@ Value value_of(const nlohmann::json& j, int depth) {
   }
   if (j.contains("file")) {
     constexpr int k_max_lines = 1'000'000'000;
-    return FilePlace{text_of(j.at("file")), small_number(j.value("line", nlohmann::json(0)), k_max_lines),
-                     small_number(j.value("column", nlohmann::json(0)), k_max_lines)};
+    return FileLocation{text_of(j.at("file")),
+                        small_number(j.value("line", nlohmann::json(0)), k_max_lines),
+                        small_number(j.value("column", nlohmann::json(0)), k_max_lines)};
   }
   if (j.contains("term")) return Term{text_of(j.at("term"))};
   if (j.contains("authored")) return Authored{text_of(j.at("authored"))};
-  if (j.contains("list")) return List{messages_of(j.at("list"), depth + 1), j.contains("sentences")};
+  if (j.contains("list"))
+    return List{messages_of(j.at("list"), depth + 1), j.contains("sentences")};
   return message_of(j, depth + 1);
 }
 
@@ -103,7 +106,8 @@ Message message_of(const nlohmann::json& j, int depth) {
   if (depth > k_deepest) refuse("too many messages inside each other");
   if (!j.is_object() || !j.contains("say")) refuse("no message");
   const auto values_of = j.value("of", nlohmann::json::array());
-  if (!values_of.is_array() || values_of.size() > k_max_values) refuse("the values of a message are no list or too many");
+  if (!values_of.is_array() || values_of.size() > k_max_values)
+    refuse("the values of a message are no list or too many");
   const std::string english = text_of(j.at("say"));
   check_gaps(english, values_of.size());
   std::vector<Value> values;
@@ -160,7 +164,9 @@ nlohmann::ordered_json encode(const Value& value) {
     Json operator()(const ClockTime& c) const { return {{"clock_s", c.seconds}}; }
     Json operator()(const Vec3& p) const { return {{"place_mm", {p.x, p.y, p.z}}}; }
     Json operator()(const Name& n) const { return one_line(n.text); }
-    Json operator()(const FilePlace& p) const { return {{"file", one_line(p.file)}, {"line", p.line}, {"column", p.column}}; }
+    Json operator()(const FileLocation& p) const {
+      return {{"file", one_line(p.file)}, {"line", p.line}, {"column", p.column}};
+    }
     Json operator()(const Term& t) const { return {{"term", t.english}}; }
     Json operator()(const Authored& a) const { return {{"authored", one_line(a.english)}}; }
     Json operator()(const List& l) const {

@@ -1,5 +1,6 @@
-// Messages in JSON. For other programs: the English sentence. In our own files: {"say": "the wall {} lacks {}", "of": ["mesial", {"value": 0.31,
-// "unit": "mm3", "digits": 2}]}. What is kept so can still be said in every language.
+// Messages in JSON. For other programs: the English sentence. In our own files: {"say": "the wall
+// {} lacks {}", "of": ["mesial", {"value": 0.31, "unit": "mm3", "digits": 2}]}. What is kept so can
+// still be said in every language.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -17,10 +18,11 @@ namespace cavum {
 [[nodiscard]] nlohmann::json values_json(const Message& message);
 /// For other programs, of a fact of that kind: {"kind", "values", "text"}.
 [[nodiscard]] nlohmann::json fact_json(std::string_view kind, const Message& message);
-/// A whole number and a name as such, any other value as an object: {"value": 0.31, "unit": "mm3", "digits": 2, "bound": 0.05}, {"term": "enamel"}.
+/// A whole number and a name as such, any other value as an object: {"value": 0.31, "unit": "mm3",
+/// "digits": 2, "bound": 0.05}, {"term": "enamel"}.
 [[nodiscard]] nlohmann::ordered_json encode(const Value& value);
-/// Throws std::invalid_argument for what is no message: other fields, gaps that are not as many as the values, more than 4096 bytes of a text, 64
-/// values, 8 messages inside each other.
+/// Throws std::invalid_argument for what is no message: other fields, gaps that are not as many as
+/// the values, more than 4096 bytes of a text, 64 values, 8 messages inside each other.
 [[nodiscard]] Message decode_message(const nlohmann::json& json);
 /// Throws as decode_message does.
 [[nodiscard]] Value decode_value(const nlohmann::json& json);

@@ -1,5 +1,5 @@
-// Values by their place in order: median and quantiles. Each is one of the values themselves, never a mean of two, so that whole numbers stay whole
-// and every machine gives the same.
+// Values by their place in order: median and quantiles. Each is one of the values themselves, never
+// a mean of two, so that whole numbers stay whole and every machine gives the same.
 #pragma once
 
 #include <algorithm>
@@ -26,20 +26,21 @@ template <class T>
 }
 
 /// Place of the value below which `share` (0..1) of n >= 1 values lie: share·(n − 1), rounded down.
-[[nodiscard]] inline std::size_t quantile_place(std::size_t n, double share) noexcept {
+[[nodiscard]] inline std::size_t quantile_index(std::size_t n, double share) noexcept {
   return static_cast<std::size_t>(share * static_cast<double>(n - 1));
 }
 
 /// Value below which `share` (0..1) of the values lie. Of one value at least.
 template <class T>
 [[nodiscard]] T quantile(std::vector<T> values, double share) {
-  const std::size_t place = quantile_place(values.size(), share);
+  const std::size_t place = quantile_index(values.size(), share);
   return in_order(std::move(values), place);
 }
 
 /// The same of values that are in order already.
-[[nodiscard]] inline double quantile_of_sorted(std::span<const double> sorted, double share) noexcept {
-  return sorted[quantile_place(sorted.size(), share)];
+[[nodiscard]] inline double quantile_of_sorted(std::span<const double> sorted,
+                                               double share) noexcept {
+  return sorted[quantile_index(sorted.size(), share)];
 }
 
 }  // namespace cavum

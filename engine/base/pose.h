@@ -15,9 +15,13 @@ struct Quat {
 struct Mat3 {
   Vec3 row_x{1, 0, 0}, row_y{0, 1, 0}, row_z{0, 0, 1};
 
-  [[nodiscard]] constexpr Vec3 operator*(Vec3 v) const noexcept { return {dot(row_x, v), dot(row_y, v), dot(row_z, v)}; }
+  [[nodiscard]] constexpr Vec3 operator*(Vec3 v) const noexcept {
+    return {dot(row_x, v), dot(row_y, v), dot(row_z, v)};
+  }
   /// The inverse rotation applied to `v`.
-  [[nodiscard]] constexpr Vec3 transposed(Vec3 v) const noexcept { return row_x * v.x + row_y * v.y + row_z * v.z; }
+  [[nodiscard]] constexpr Vec3 transposed(Vec3 v) const noexcept {
+    return row_x * v.x + row_y * v.y + row_z * v.z;
+  }
   friend constexpr bool operator==(const Mat3&, const Mat3&) = default;
 };
 
@@ -36,8 +40,9 @@ struct Mat3 {
           {2 * (xz - wy), 2 * (yz + wx), 1 - 2 * (xx + yy)}};
 }
 
-/// Shortest rotation that carries unit vector `from` onto unit vector `to`; of opposite ones, half a turn about some axis across `from`. Right to
-/// 1e-12 everywhere. Near the opposite 1 + from·to has lost its digits: there w = |from + to| / 2, and the axis is along from x (from + to).
+/// Shortest rotation that carries unit vector `from` onto unit vector `to`; of opposite ones, half
+/// a turn about some axis across `from`. Right to 1e-12 everywhere. Near the opposite 1 + from·to
+/// has lost its digits: there w = |from + to| / 2, and the axis is along from x (from + to).
 [[nodiscard]] inline Quat rotation_between(Vec3 from, Vec3 to) noexcept {
   const double d = dot(from, to);
   if (d < -0.999999) {
@@ -48,7 +53,8 @@ struct Mat3 {
       const double s = 0.5 * length(to - from) / length(axis);
       return normalized(Quat{w, axis.x * s, axis.y * s, axis.z * s});
     }
-    const Vec3 side = normalized(std::fabs(from.x) < 0.6 ? cross(from, {1, 0, 0}) : cross(from, {0, 1, 0}));
+    const Vec3 side =
+        normalized(std::fabs(from.x) < 0.6 ? cross(from, {1, 0, 0}) : cross(from, {0, 1, 0}));
     return {0.0, side.x, side.y, side.z};
   }
   const Vec3 c = cross(from, to);

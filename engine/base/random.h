@@ -1,5 +1,5 @@
-// A generator of our own (SplitMix64), because std::*_distribution differs between libraries. Used by
-// the simulated hand and by tests; the servo step itself draws no random number.
+// A generator of our own (SplitMix64), because std::*_distribution differs between libraries. Used
+// by the simulated hand and by tests; the servo step itself draws no random number.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
-// Adaptive binary range coder: writes a bit in -log2(chance) bits, where the chance comes from the bits seen before in
-// the same place (its AdaptiveBit). Whole numbers only, so that every build reads what any build wrote. Encoder and decoder
-// have the same `code`, so that one walk over the data, as a template over the coder, both writes and reads a format.
+// Adaptive binary range coder: writes a bit in -log2(chance) bits, where the chance comes from the
+// bits seen before in the same place (its AdaptiveBit). Whole numbers only, so that every build
+// reads what any build wrote. Encoder and decoder have the same `code`, so that one walk over the
+// data, as a template over the coder, both writes and reads a format.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +13,8 @@
 
 namespace cavum {
 
-/// The chance of a one, learned from what came before: quickly at first, then over the last 250 bits or so.
+/// The chance of a one, learned from what came before: quickly at first, then over the last 250
+/// bits or so.
 class AdaptiveBit {
  public:
   /// Chance of a one in 1/65536, 1..65535.
@@ -20,7 +22,8 @@ class AdaptiveBit {
   void learn(bool one) noexcept {
     const std::int64_t before = state_ >> k_count_bits, wanted = one ? k_certain - 1 : 0;
     const std::uint32_t seen = state_ & ((1u << k_count_bits) - 1);
-    state_ = static_cast<std::uint32_t>(before + ((wanted - before) * k_rate[seen] >> 16)) << k_count_bits |
+    state_ = static_cast<std::uint32_t>(before + ((wanted - before) * k_rate[seen] >> 16))
+                 << k_count_bits |
              std::min<std::uint32_t>(seen + 1, k_rate.size() - 1);
   }
 
@@ -29,7 +32,8 @@ class AdaptiveBit {
   static constexpr std::int64_t k_certain = 1 << 22;
   static constexpr std::array<std::int32_t, 250> k_rate = [] {  // 65536 / (n + 1.6) after n bits
     std::array<std::int32_t, 250> rate{};
-    for (std::size_t n = 0; n < rate.size(); ++n) rate[n] = static_cast<std::int32_t>(655360 / (10 * n + 16));
+    for (std::size_t n = 0; n < rate.size(); ++n)
+      rate[n] = static_cast<std::int32_t>(655360 / (10 * n + 16));
     return rate;
   }();
   std::uint32_t state_ = 1u << 31;  // 22 bits of chance above 10 of how many bits were seen
@@ -40,7 +44,8 @@ class RangeEncoder {
   static constexpr bool k_decodes = false;
   /// Writes `bit` and returns it.
   bool code(AdaptiveBit& model, bool bit) {
-    const std::uint32_t middle = low_ + static_cast<std::uint32_t>(std::uint64_t{high_ - low_} * model.chance() >> 16);
+    const std::uint32_t middle =
+        low_ + static_cast<std::uint32_t>(std::uint64_t{high_ - low_} * model.chance() >> 16);
     if (bit)
       high_ = middle;
     else
@@ -55,7 +60,8 @@ class RangeEncoder {
   }
   /// The bytes written; the encoder is used up.
   [[nodiscard]] Bytes finish() {
-    for (int shift = 24; shift >= 0; shift -= 8) out_.push_back(static_cast<std::uint8_t>(low_ >> shift));
+    for (int shift = 24; shift >= 0; shift -= 8)
+      out_.push_back(static_cast<std::uint8_t>(low_ >> shift));
     return std::move(out_);
   }
 
@@ -64,8 +70,9 @@ class RangeEncoder {
   Bytes out_;
 };
 
-/// Reads what RangeEncoder wrote, given the same models in the same order. Throws as `in` does when it would need more bytes than there
-/// are: damaged data end in an error at the latest there. Takes exactly the bytes that were written.
+/// Reads what RangeEncoder wrote, given the same models in the same order. Throws as `in` does when
+/// it would need more bytes than there are: damaged data end in an error at the latest there. Takes
+/// exactly the bytes that were written.
 class RangeDecoder {
  public:
   static constexpr bool k_decodes = true;
@@ -74,7 +81,8 @@ class RangeDecoder {
   }
   /// Reads a bit. The second argument is there for the encoder alone.
   bool code(AdaptiveBit& model, bool /*bit*/ = false) {
-    const std::uint32_t middle = low_ + static_cast<std::uint32_t>(std::uint64_t{high_ - low_} * model.chance() >> 16);
+    const std::uint32_t middle =
+        low_ + static_cast<std::uint32_t>(std::uint64_t{high_ - low_} * model.chance() >> 16);
     const bool bit = value_ <= middle;
     if (bit)
       high_ = middle;
@@ -98,7 +106,8 @@ class RangeDecoder {
 template <class Coder>
 std::uint8_t code_byte(Coder& coder, std::array<AdaptiveBit, 256>& model, std::uint8_t byte) {
   std::uint32_t path = 1;
-  for (int i = 7; i >= 0; --i) path = path << 1 | static_cast<std::uint32_t>(coder.code(model[path], (byte >> i & 1) != 0));
+  for (int i = 7; i >= 0; --i)
+    path = path << 1 | static_cast<std::uint32_t>(coder.code(model[path], (byte >> i & 1) != 0));
   return static_cast<std::uint8_t>(path);
 }
 

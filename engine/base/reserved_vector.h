@@ -1,5 +1,5 @@
-// A vector whose copies keep its spare capacity: state that was given room once can be copied and goes on
-// without allocating.
+// A vector whose copies keep its spare capacity: state that was given room once can be copied and
+// goes on without allocating.
 #pragma once
 
 #include <vector>

@@ -10,12 +10,15 @@
 
 namespace cavum {
 
-/// Below TMPDIR, open to its owner alone; gone with all it holds at the end. Throws Error when it cannot be made.
+/// Below TMPDIR, open to its owner alone; gone with all it holds at the end. Throws Error when it
+/// cannot be made.
 class ScratchFolder {
  public:
   ScratchFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "cavum-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw Error(name, msg("cannot be made"), msg("set TMPDIR to a folder that is writable and has room"));
+    if (::mkdtemp(name.data()) == nullptr)
+      throw Error(name, msg("cannot be made"),
+                  msg("set TMPDIR to a folder that is writable and has room"));
     folder_ = name;
   }
   ~ScratchFolder() {
@@ -24,7 +27,9 @@ class ScratchFolder {
   }
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
-  [[nodiscard]] std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  [[nodiscard]] std::string file(const std::string& name) const {
+    return (folder_ / name).string();
+  }
 
  private:
   std::filesystem::path folder_;

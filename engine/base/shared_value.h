@@ -6,12 +6,15 @@
 
 namespace cavum {
 
-/// Copying costs a pointer. `change` makes a copy of its own first, where others share it. One copy is not for several threads.
+/// Copying costs a pointer. `change` makes a copy of its own first, where others share it. One copy
+/// is not for several threads.
 template <class T>
 class Shared {
  public:
   Shared() : value_(std::make_shared<T>()) {}
-  Shared(T value) : value_(std::make_shared<T>(std::move(value))) {}  // NOLINT(google-explicit-constructor): it stands for its value
+  Shared(T value)
+      : value_(std::make_shared<T>(std::move(value))) {
+  }  // NOLINT(google-explicit-constructor): it stands for its value
   [[nodiscard]] const T& operator*() const { return *value_; }
   [[nodiscard]] const T* operator->() const { return value_.get(); }
   [[nodiscard]] T& change() {

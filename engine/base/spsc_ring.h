@@ -1,5 +1,5 @@
-// A queue between two threads, one that puts in and one that takes out, without locks or allocation: how
-// the servo hands its ticks to whoever writes them down.
+// A queue between two threads, one that puts in and one that takes out, without locks or
+// allocation: how the servo hands its ticks to whoever writes them down.
 #pragma once
 
 #include <atomic>
@@ -14,11 +14,13 @@ template <class T>
 class SpscRing {
  public:
   /// Room for at least `capacity` items, allocated here and never again.
-  explicit SpscRing(std::size_t capacity) : items_(std::bit_ceil(capacity)), mask_(items_.size() - 1) {}
+  explicit SpscRing(std::size_t capacity)
+      : items_(std::bit_ceil(capacity)), mask_(items_.size() - 1) {}
 
   /// Items that certainly fit now. Producer only.
   [[nodiscard]] std::size_t room() const noexcept {
-    return items_.size() - (put_.load(std::memory_order_relaxed) - taken_.load(std::memory_order_acquire));
+    return items_.size() -
+           (put_.load(std::memory_order_relaxed) - taken_.load(std::memory_order_acquire));
   }
   /// All of `items` or, without room for them, none (false). Producer only.
   bool push(std::span<const T> items) noexcept {
@@ -31,7 +33,9 @@ class SpscRing {
   bool push(const T& item) noexcept { return push(std::span<const T>(&item, 1)); }
 
   /// Items that can be taken now. Consumer only.
-  [[nodiscard]] std::size_t ready() const noexcept { return put_.load(std::memory_order_acquire) - taken_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::size_t ready() const noexcept {
+    return put_.load(std::memory_order_acquire) - taken_.load(std::memory_order_relaxed);
+  }
   /// Fills `items`, oldest first, or takes nothing when there are fewer (false). Consumer only.
   bool pop(std::span<T> items) noexcept {
     if (items.size() > ready()) return false;

@@ -1,5 +1,6 @@
-// One hash over plain state. A struct names its members once, by CAVUM_STATE(Type, members...); a member that is left out there does not compile.
-// What is no state, for it can be found again, is kept in a struct of its own, which says so by CAVUM_NO_STATE(Type).
+// One hash over plain state. A struct names its members once, by CAVUM_STATE(Type, members...); a
+// member that is left out there does not compile. What is no state, for it can be found again, is
+// kept in a struct of its own, which says so by CAVUM_NO_STATE(Type).
 #pragma once
 
 #include <array>

@@ -7,7 +7,9 @@
 namespace cavum {
 
 double mean(std::span<const double> values) noexcept {
-  return values.empty() ? 0.0 : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  return values.empty() ? 0.0
+                        : std::accumulate(values.begin(), values.end(), 0.0) /
+                              static_cast<double>(values.size());
 }
 
 double variance(std::span<const double> values) noexcept {
@@ -31,7 +33,8 @@ double correlation(std::span<const double> a, std::span<const double> b) noexcep
 
 double normal_cdf(double z) noexcept { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
-// Summed in shares, unlike mean(): the figures that the rigs have published are of this sum, to the last bit.
+// Summed in shares, unlike mean(): the figures that the rigs have published are of this sum, to the
+// last bit.
 MeanSd mean_sd(std::span<const double> values) noexcept {
   MeanSd out;
   const auto n = static_cast<double>(values.size());
@@ -82,7 +85,8 @@ Fit fit_columns(std::span<const std::vector<double>> columns, std::span<const do
   }
   fit.rms = std::sqrt(squares / static_cast<double>(n));
   const double variance = n > p ? squares / static_cast<double>(n - p) : 0.0;
-  for (std::size_t i = 0; i < p; ++i) fit.error[i] = std::sqrt(std::fmax(0.0, variance * m[i][p + i]));
+  for (std::size_t i = 0; i < p; ++i)
+    fit.error[i] = std::sqrt(std::fmax(0.0, variance * m[i][p + i]));
   fit.solved = true;
   return fit;
 }

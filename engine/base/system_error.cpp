@@ -15,23 +15,25 @@ struct Row {
   ErrorCode code;
   const char* english;
 };
-constexpr Row k_rows[] = {{ENOENT, FileError::missing, said("there is no such file or folder")},
-                          {EACCES, SystemError::no_permission, said("permission is missing")},
-                          {EPERM, SystemError::no_permission, said("permission is missing")},
-                          {ENOSPC, SystemError::no_space, said("there is no space left")},
-                          {EDQUOT, SystemError::no_space, said("there is no space left")},
-                          {EROFS, SystemError::read_only, said("the disk may only be read")},
-                          {EMFILE, SystemError::too_many_open, said("too many files are open")},
-                          {ENFILE, SystemError::too_many_open, said("too many files are open")},
-                          {EIO, SystemError::input_output, said("the disk does not read or write")},
-                          {EEXIST, FileError::exists, said("it is there already")},
-                          {ENOTDIR, SystemError::not_a_folder, said("a part of the path is no folder")},
-                          {EISDIR, FileError::not_a_file, said("it is a folder")},
-                          {ENAMETOOLONG, SystemError::name_too_long, said("the name is too long")},
-                          {ENOMEM, SystemError::no_memory, said("there is not enough memory")}};
+constexpr Row k_rows[] = {
+    {ENOENT, FileError::missing, noop("there is no such file or folder")},
+    {EACCES, SystemError::no_permission, noop("permission is missing")},
+    {EPERM, SystemError::no_permission, noop("permission is missing")},
+    {ENOSPC, SystemError::no_space, noop("there is no space left")},
+    {EDQUOT, SystemError::no_space, noop("there is no space left")},
+    {EROFS, SystemError::read_only, noop("the disk may only be read")},
+    {EMFILE, SystemError::too_many_open, noop("too many files are open")},
+    {ENFILE, SystemError::too_many_open, noop("too many files are open")},
+    {EIO, SystemError::input_output, noop("the disk does not read or write")},
+    {EEXIST, FileError::exists, noop("it is there already")},
+    {ENOTDIR, SystemError::not_a_folder, noop("a part of the path is no folder")},
+    {EISDIR, FileError::not_a_file, noop("it is a folder")},
+    {ENAMETOOLONG, SystemError::name_too_long, noop("the name is too long")},
+    {ENOMEM, SystemError::no_memory, noop("there is not enough memory")}};
 
 const Row* row_of(int number) noexcept {
-  const auto* row = std::find_if(std::begin(k_rows), std::end(k_rows), [number](const Row& r) { return r.number == number; });
+  const auto* row = std::find_if(std::begin(k_rows), std::end(k_rows),
+                                 [number](const Row& r) { return r.number == number; });
   return row == std::end(k_rows) ? nullptr : row;
 }
 

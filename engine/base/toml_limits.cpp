@@ -7,26 +7,33 @@
 namespace cavum {
 namespace {
 
-/// Walks a text by TOML's rules for strings and comments. Up to a text's first mistake it sees what the parser sees; what follows is never kept.
+/// Walks a text by TOML's rules for strings and comments. Up to a text's first mistake it sees what
+/// the parser sees; what follows is never kept.
 class Scan {
  public:
   explicit Scan(std::string_view text) : text_(text) {}
 
   std::optional<TomlExcess> run() {
-    if (text_.size() > k_toml_bytes) return excess(msg("is a text of {} bytes", text_.size()), k_toml_bytes);
+    if (text_.size() > k_toml_bytes)
+      return excess(msg("is a text of {} bytes", text_.size()), k_toml_bytes);
     while (at_ < text_.size()) {
       take();
-      if (parts_ > k_toml_parts) return excess(msg("a name has {} parts or more", parts_), k_toml_parts);
-      if (depth_ > k_toml_depth) return excess(msg("lists and tables are nested {} deep", depth_), k_toml_depth);
-      if (values_ > k_toml_values) return excess(msg("there are {} values or more", values_), k_toml_values);
-      if (named_ > k_toml_named) return excess(msg("headers and dotted names have {} parts or more", named_), k_toml_named);
+      if (parts_ > k_toml_parts)
+        return excess(msg("a name has {} parts or more", parts_), k_toml_parts);
+      if (depth_ > k_toml_depth)
+        return excess(msg("lists and tables are nested {} deep", depth_), k_toml_depth);
+      if (values_ > k_toml_values)
+        return excess(msg("there are {} values or more", values_), k_toml_values);
+      if (named_ > k_toml_named)
+        return excess(msg("headers and dotted names have {} parts or more", named_), k_toml_named);
     }
     return std::nullopt;
   }
 
  private:
   [[nodiscard]] std::optional<TomlExcess> excess(const Message& what, std::size_t limit) const {
-    return TomlExcess{line_, msg("{}, beyond the limit of {}", what, limit), msg("shorten the file, or use an intact copy")};
+    return TomlExcess{line_, msg("{}, beyond the limit of {}", what, limit),
+                      msg("shorten the file, or use an intact copy")};
   }
 
   void take() {
@@ -82,7 +89,8 @@ class Scan {
     if (text_.substr(at_, 2) == three.substr(0, 2)) {
       for (at_ += 2; at_ < text_.size() && text_.substr(at_, 3) != three; ++at_) step_over(escapes);
       at_ = std::min(at_ + 3, text_.size());
-      for (int more = 0; more < 2 && at_ < text_.size() && text_[at_] == quote; ++more) ++at_;  // quotes that end the text itself
+      for (int more = 0; more < 2 && at_ < text_.size() && text_[at_] == quote; ++more)
+        ++at_;  // quotes that end the text itself
       return;
     }
     for (; at_ < text_.size() && text_[at_] != quote; ++at_) {

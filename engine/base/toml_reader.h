@@ -1,5 +1,5 @@
-// Strict reading of our TOML files: every value is asked for by name, with its range; what nobody asked
-// for is an error. Errors carry file:line:column.
+// Strict reading of our TOML files: every value is asked for by name, with its range; what nobody
+// asked for is an error. Errors carry file:line:column.
 #pragma once
 
 #include <toml++/toml.h>
@@ -13,15 +13,18 @@
 
 namespace cavum {
 
-/// Parses a whole document. Throws Error(`where:line:column`, ...) on a syntax error, and when it is beyond a limit of toml_limits.h.
+/// Parses a whole document. Throws Error(`where:line:column`, ...) on a syntax error, and when it
+/// is beyond a limit of toml_limits.h.
 [[nodiscard]] toml::table parse_toml(const std::string& text, const std::string& where);
 
 /// One table of a document. Call `finish` when all known keys were asked for.
 class TomlReader {
  public:
-  TomlReader(const toml::table& table, std::string where) : table_(table), where_(std::move(where)) {}
+  TomlReader(const toml::table& table, std::string where)
+      : table_(table), where_(std::move(where)) {}
 
-  /// A number in [low, high]; integers are accepted. Throws Error when missing, not a number, or out of range.
+  /// A number in [low, high]; integers are accepted. Throws Error when missing, not a number, or
+  /// out of range.
   [[nodiscard]] double number(std::string_view key, double low, double high);
   [[nodiscard]] double number_or(std::string_view key, double low, double high, double otherwise);
   [[nodiscard]] std::string text(std::string_view key);
@@ -35,7 +38,8 @@ class TomlReader {
   /// Throws Error naming the first key that was never asked for.
   void finish() const;
   [[noreturn]] void fail(std::string_view key, const Message& what, const Message& todo) const;
-  [[noreturn]] void fail(ErrorCode code, std::string_view key, const Message& what, const Message& todo) const;
+  [[noreturn]] void fail(ErrorCode code, std::string_view key, const Message& what,
+                         const Message& todo) const;
   [[nodiscard]] const std::string& where() const noexcept { return where_; }
 
  private:

@@ -15,8 +15,12 @@ namespace cavum {
 struct Vec3 {
   double x = 0.0, y = 0.0, z = 0.0;
 
-  friend constexpr Vec3 operator+(Vec3 a, Vec3 b) noexcept { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend constexpr Vec3 operator-(Vec3 a, Vec3 b) noexcept { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend constexpr Vec3 operator+(Vec3 a, Vec3 b) noexcept {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+  friend constexpr Vec3 operator-(Vec3 a, Vec3 b) noexcept {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
   friend constexpr Vec3 operator-(Vec3 a) noexcept { return {-a.x, -a.y, -a.z}; }
   friend constexpr Vec3 operator*(Vec3 a, double s) noexcept { return {a.x * s, a.y * s, a.z * s}; }
   friend constexpr Vec3 operator*(double s, Vec3 a) noexcept { return a * s; }
@@ -26,8 +30,12 @@ struct Vec3 {
   friend constexpr bool operator==(const Vec3&, const Vec3&) = default;
 };
 
-[[nodiscard]] constexpr double dot(Vec3 a, Vec3 b) noexcept { return a.x * b.x + a.y * b.y + a.z * b.z; }
-[[nodiscard]] constexpr Vec3 cross(Vec3 a, Vec3 b) noexcept { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+[[nodiscard]] constexpr double dot(Vec3 a, Vec3 b) noexcept {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+[[nodiscard]] constexpr Vec3 cross(Vec3 a, Vec3 b) noexcept {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 /// sqrt is correctly rounded everywhere, so length is reproducible.
 [[nodiscard]] inline double length(Vec3 a) noexcept { return std::sqrt(dot(a, a)); }
 /// Unit vector along `a`; `fallback` when `a` is shorter than 1e-12.
@@ -36,32 +44,52 @@ struct Vec3 {
   return n > 1e-12 ? a / n : fallback;
 }
 /// Component by component.
-[[nodiscard]] constexpr Vec3 min(Vec3 a, Vec3 b) noexcept { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
-[[nodiscard]] constexpr Vec3 max(Vec3 a, Vec3 b) noexcept { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
-[[nodiscard]] inline bool is_finite(Vec3 a) noexcept { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+[[nodiscard]] constexpr Vec3 min(Vec3 a, Vec3 b) noexcept {
+  return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+[[nodiscard]] constexpr Vec3 max(Vec3 a, Vec3 b) noexcept {
+  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
+[[nodiscard]] inline bool is_finite(Vec3 a) noexcept {
+  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
 
 /// Integer leaf coordinates.
 struct IVec3 {
   std::int32_t x = 0, y = 0, z = 0;
 
-  friend constexpr IVec3 operator+(IVec3 a, IVec3 b) noexcept { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend constexpr IVec3 operator-(IVec3 a, IVec3 b) noexcept { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend constexpr IVec3 operator+(IVec3 a, IVec3 b) noexcept {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+  friend constexpr IVec3 operator-(IVec3 a, IVec3 b) noexcept {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
   friend constexpr bool operator==(const IVec3&, const IVec3&) = default;
   friend constexpr auto operator<=>(const IVec3&, const IVec3&) = default;
 };
 
-[[nodiscard]] constexpr IVec3 min(IVec3 a, IVec3 b) noexcept { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
-[[nodiscard]] constexpr IVec3 max(IVec3 a, IVec3 b) noexcept { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
-[[nodiscard]] constexpr Vec3 to_vec3(IVec3 a) noexcept { return {double(a.x), double(a.y), double(a.z)}; }
-/// Whether a lattice of this size has such a cell; how many it has; and where that cell stands among them, x fastest.
+[[nodiscard]] constexpr IVec3 min(IVec3 a, IVec3 b) noexcept {
+  return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+[[nodiscard]] constexpr IVec3 max(IVec3 a, IVec3 b) noexcept {
+  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
+[[nodiscard]] constexpr Vec3 to_vec3(IVec3 a) noexcept {
+  return {double(a.x), double(a.y), double(a.z)};
+}
+/// Whether a lattice of this size has such a cell; how many it has; and where that cell stands
+/// among them, x fastest.
 [[nodiscard]] constexpr bool lies_in(IVec3 at, IVec3 size) noexcept {
   return at.x >= 0 && at.y >= 0 && at.z >= 0 && at.x < size.x && at.y < size.y && at.z < size.z;
 }
 [[nodiscard]] constexpr std::size_t cells_of(IVec3 size) noexcept {
-  return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
+  return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
+         static_cast<std::size_t>(size.z);
 }
 [[nodiscard]] constexpr std::size_t cell_index(IVec3 at, IVec3 size) noexcept {
-  return (static_cast<std::size_t>(at.z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(at.y)) * static_cast<std::size_t>(size.x) +
+  return (static_cast<std::size_t>(at.z) * static_cast<std::size_t>(size.y) +
+          static_cast<std::size_t>(at.y)) *
+             static_cast<std::size_t>(size.x) +
          static_cast<std::size_t>(at.x);
 }
 

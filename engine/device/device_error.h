@@ -1,4 +1,5 @@
-// What can be wrong with a stylus or a foot pedal, for whoever has to tell one from another; in words it stands in the Error that bears it.
+// What can be wrong with a stylus or a foot pedal, for whoever has to tell one from another; in
+// words it stands in the Error that bears it.
 #pragma once
 
 #include <string_view>
@@ -55,7 +56,8 @@ namespace cavum {
 CAVUM_NAMED_ENUM(DeviceError, CAVUM_DEVICE_ERRORS)
 
 /// Of the stylus that is called `id`.
-[[nodiscard]] inline Error stylus_error(std::string_view id, DeviceError code, Message problem, Message advice) {
+[[nodiscard]] inline Error stylus_error(std::string_view id, DeviceError code, Message problem,
+                                        Message advice) {
   return {code, msg("stylus {}", id), std::move(problem), std::move(advice)};
 }
 

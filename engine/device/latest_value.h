@@ -1,5 +1,6 @@
-// Hands the latest value from one thread to another: neither ever waits, a value is never torn, and what was overtaken is forgotten. Three
-// places go round between the one who writes and the one who reads.
+// Hands the latest value from one thread to another: neither ever waits, a value is never torn, and
+// what was overtaken is forgotten. Three places go round between the one who writes and the one who
+// reads.
 #pragma once
 
 #include <array>
@@ -15,7 +16,8 @@ class LatestValue {
     places_[back_].value = value;
     back_ = between_.exchange(back_ | k_new, std::memory_order_acq_rel) & k_place;
   }
-  /// The last value put, or T{} before the first; `is_new` when nobody has taken it yet. Reading thread only.
+  /// The last value put, or T{} before the first; `is_new` when nobody has taken it yet. Reading
+  /// thread only.
   [[nodiscard]] const T& take(bool& is_new) noexcept {
     is_new = (between_.load(std::memory_order_relaxed) & k_new) != 0;
     if (is_new) front_ = between_.exchange(front_, std::memory_order_acq_rel) & k_place;

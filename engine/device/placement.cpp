@@ -22,7 +22,8 @@ std::array<double, 4> largest_eigenvector(Matrix4 a) {
       for (std::size_t q = p + 1; q < 4; ++q) {
         if (a[p][q] == 0.0) continue;
         const double half = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-        const double t = (half >= 0 ? 1.0 : -1.0) / (std::fabs(half) + std::sqrt(half * half + 1.0));
+        const double t =
+            (half >= 0 ? 1.0 : -1.0) / (std::fabs(half) + std::sqrt(half * half + 1.0));
         const double c = 1.0 / std::sqrt(t * t + 1.0), s = t * c;
         for (std::size_t k = 0; k < 4; ++k) {
           const double x = a[k][p], y = a[k][q];
@@ -50,18 +51,23 @@ Vec3 mean_of(const std::vector<Vec3>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-/// Twice the largest area between three of the marks over their largest distance: the width of the figure they make.
+/// Twice the largest area between three of the marks over their largest distance: the width of the
+/// figure they make.
 void require_a_plane(const std::vector<Vec3>& marks) {
   constexpr double k_min_mm = 5.0;
   double width = 0.0;
   for (std::size_t i = 0; i < marks.size(); ++i)
     for (std::size_t j = i + 1; j < marks.size(); ++j)
       for (std::size_t k = j + 1; k < marks.size(); ++k) {
-        const double longest = std::max({length(marks[j] - marks[i]), length(marks[k] - marks[i]), length(marks[k] - marks[j])});
-        if (longest > 0) width = std::max(width, length(cross(marks[j] - marks[i], marks[k] - marks[i])) / longest);
+        const double longest = std::max({length(marks[j] - marks[i]), length(marks[k] - marks[i]),
+                                         length(marks[k] - marks[j])});
+        if (longest > 0)
+          width =
+              std::max(width, length(cross(marks[j] - marks[i], marks[k] - marks[i])) / longest);
       }
   if (!(width >= k_min_mm))
-    throw Error(DeviceError::marks_in_line, msg("placement"), msg("the marks lie on a line, or too close together"),
+    throw Error(DeviceError::marks_in_line, msg("placement"),
+                msg("the marks lie on a line, or too close together"),
                 msg("touch marks further apart, in the order asked for"));
 }
 
@@ -69,14 +75,17 @@ void require_a_plane(const std::vector<Vec3>& marks) {
 
 Quat turned(Quat first, Quat then) noexcept {
   const Quat &a = then, &b = first;
-  return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+  return {
+      a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 
 Quat rotation_of(Vec3 x, Vec3 y, Vec3 z) noexcept {
   // four times the square of each component; the largest one is divided by
-  const std::array<double, 4> square{1 + x.x + y.y + z.z, 1 + x.x - y.y - z.z, 1 - x.x + y.y - z.z, 1 - x.x - y.y + z.z};
-  const auto best = static_cast<std::size_t>(std::max_element(square.begin(), square.end()) - square.begin());
+  const std::array<double, 4> square{1 + x.x + y.y + z.z, 1 + x.x - y.y - z.z, 1 - x.x + y.y - z.z,
+                                     1 - x.x - y.y + z.z};
+  const auto best =
+      static_cast<std::size_t>(std::max_element(square.begin(), square.end()) - square.begin());
   const double s = square[best];
   if (!(s > 1e-9)) return {};
   switch (best) {
@@ -96,10 +105,13 @@ Pose to_tooth(const Placement& placement, Vec3 device_mm) noexcept {
 }
 
 Pose to_tooth(const Placement& placement, Vec3 device_mm, Quat tool_to_device) noexcept {
-  return {rotation(placement.rotation) * device_mm + placement.offset_mm, normalized(turned(tool_to_device, placement.rotation))};
+  return {rotation(placement.rotation) * device_mm + placement.offset_mm,
+          normalized(turned(tool_to_device, placement.rotation))};
 }
 
-Vec3 force_to_device(const Placement& placement, Vec3 tooth_n) noexcept { return rotation(placement.rotation).transposed(tooth_n); }
+Vec3 force_to_device(const Placement& placement, Vec3 tooth_n) noexcept {
+  return rotation(placement.rotation).transposed(tooth_n);
+}
 
 Placement upright_device(Vec3 middle_mm) noexcept {
   Placement placement;
@@ -111,7 +123,8 @@ Placement upright_device(Vec3 middle_mm) noexcept {
 PlacementFit fit_placement(const std::vector<Vec3>& device_mm, const std::vector<Vec3>& tooth_mm) {
   if (device_mm.size() != tooth_mm.size() || device_mm.size() < 3)
     throw Error(DeviceError::unequal_marks, msg("placement"),
-                msg("there are {} marks of the device for {} of the tooth", device_mm.size(), tooth_mm.size()),
+                msg("there are {} marks of the device for {} of the tooth", device_mm.size(),
+                    tooth_mm.size()),
                 msg("touch at least three, each once"));
   require_a_plane(device_mm);
   require_a_plane(tooth_mm);

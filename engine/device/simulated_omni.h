@@ -1,6 +1,6 @@
-// A simulated PHANTOM Omni in a simulated hand, so that an exam needs no hardware: a gripped mass with
-// joint friction, pulled by the hand's spring towards where the operator wants the tip, pushed by the
-// force that the servo renders, and read back through a coarse encoder.
+// A simulated PHANTOM Omni in a simulated hand, so that an exam needs no hardware: a gripped mass
+// with joint friction, pulled by the hand's spring towards where the operator wants the tip, pushed
+// by the force that the servo renders, and read back through a coarse encoder.
 #pragma once
 
 #include <array>
@@ -33,9 +33,10 @@ struct OmniState {
 };
 [[nodiscard]] OmniState make_omni_state(Vec3 position_mm);
 
-/// One tick of `dt_s` (in four steps, semi-implicit): takes the force commanded by the servo and where the hand
-/// wants the tip, returns the position that the encoders report. The commanded force saturates.
-[[nodiscard]] Vec3 advance_omni(const OmniModel& omni, const HandModel& hand, OmniState& state, Vec3 commanded_n, Vec3 intended_mm,
-                                double dt_s) noexcept;
+/// One tick of `dt_s` (in four steps, semi-implicit): takes the force commanded by the servo and
+/// where the hand wants the tip, returns the position that the encoders report. The commanded force
+/// saturates.
+[[nodiscard]] Vec3 advance_omni(const OmniModel& omni, const HandModel& hand, OmniState& state,
+                                Vec3 commanded_n, Vec3 intended_mm, double dt_s) noexcept;
 
 }  // namespace cavum

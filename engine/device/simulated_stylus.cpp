@@ -18,13 +18,16 @@ StylusFacts simulated_facts(const OmniModel& omni) {
 
 DeviceReading SimulatedStylus::read(double elapsed_s) {
   constexpr int k_max_steps = 1000;
-  const int steps = std::clamp(static_cast<int>(std::floor(elapsed_s / tick_s_ + 0.5)), 1, k_max_steps);
+  const int steps =
+      std::clamp(static_cast<int>(std::floor(elapsed_s / tick_s_ + 0.5)), 1, k_max_steps);
   HandIntent intent;
   Vec3 tip;
   for (int i = 0; i < steps; ++i) {
     time_s_ += tick_s_;
     intent = intent_(time_s_);
-    tip = advance_omni(omni_, hand_, state_, cut_.load(std::memory_order_acquire) ? Vec3{} : force_n_, intent.tip_mm, tick_s_);
+    tip =
+        advance_omni(omni_, hand_, state_, cut_.load(std::memory_order_acquire) ? Vec3{} : force_n_,
+                     intent.tip_mm, tick_s_);
   }
   readings_.fetch_add(steps, std::memory_order_relaxed);
   return {{tip, {}}, intent.pedal, k_stylus_fresh | k_pedal_fresh, 0};

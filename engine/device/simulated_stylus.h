@@ -1,5 +1,6 @@
-// The simulated Omni, its hand and a simulated pedal as a device of the real-time servo. The hand follows a
-// path in time; the force that the servo sends is felt by the simulated mechanics, at the servo's own rate.
+// The simulated Omni, its hand and a simulated pedal as a device of the real-time servo. The hand
+// follows a path in time; the force that the servo sends is felt by the simulated mechanics, at the
+// servo's own rate.
 #pragma once
 
 #include <atomic>
@@ -16,14 +17,20 @@ struct HandIntent {
   double pedal = 0.0;  ///< 0..1
 };
 
-/// What a simulated Omni says of itself. Its reach is half the depth of the real one's workspace of 160 x 120 x 70 mm (recalled).
+/// What a simulated Omni says of itself. Its reach is half the depth of the real one's workspace of
+/// 160 x 120 x 70 mm (recalled).
 [[nodiscard]] StylusFacts simulated_facts(const OmniModel& omni);
 
 class SimulatedStylus final : public Stylus {
  public:
   /// `intent` is asked in the servo thread with the time since the start; it must not allocate.
-  SimulatedStylus(const OmniModel& omni, const HandModel& hand, double tick_s, std::function<HandIntent(double t_s)> intent)
-      : omni_(omni), hand_(hand), tick_s_(tick_s), intent_(std::move(intent)), state_(make_omni_state(intent_(0.0).tip_mm)) {}
+  SimulatedStylus(const OmniModel& omni, const HandModel& hand, double tick_s,
+                  std::function<HandIntent(double t_s)> intent)
+      : omni_(omni),
+        hand_(hand),
+        tick_s_(tick_s),
+        intent_(std::move(intent)),
+        state_(make_omni_state(intent_(0.0).tip_mm)) {}
 
   [[nodiscard]] DeviceReading read(double elapsed_s) override;
   void send_force(Vec3 force_n) override;

@@ -15,7 +15,8 @@ class WithPedal final : public ServoDevice {
     DeviceReading reading = stylus_.read(elapsed_s);
     const PedalReading foot = pedal_.read();
     reading.pedal = foot.position;
-    reading.flags = static_cast<std::uint16_t>((reading.flags & ~k_pedal_fresh) | (foot.fresh ? k_pedal_fresh : 0));
+    reading.flags = static_cast<std::uint16_t>((reading.flags & ~k_pedal_fresh) |
+                                               (foot.fresh ? k_pedal_fresh : 0));
     return reading;
   }
   void show(const TickOutput& output) noexcept override { stylus_.show(output); }

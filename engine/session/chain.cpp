@@ -15,7 +15,8 @@ void put_clocks(ByteWriter& out, const Clocks& clocks) {
 
 }  // namespace
 
-Sha256 genesis_hash(const std::map<std::string, std::string>& meta, std::span<const Artifact> artifacts) {
+Sha256 genesis_hash(const std::map<std::string, std::string>& meta,
+                    std::span<const Artifact> artifacts) {
   ByteWriter out;
   put_tag(out, "CVSTART1");
   out.put(static_cast<std::uint64_t>(meta.size()));
@@ -62,7 +63,9 @@ Sha256 chunk_hash(const ChunkRow& chunk) {
   out.put(chunk.ticks);
   out.put(chunk.state_hash);
   put_clocks(out, chunk.clocks);
-  for (const auto* part : {&chunk.inputs_sha256, &chunk.records_sha256, &chunk.removed_sha256, &chunk.events_sha256}) out.put_bytes(*part);
+  for (const auto* part :
+       {&chunk.inputs_sha256, &chunk.records_sha256, &chunk.removed_sha256, &chunk.events_sha256})
+    out.put_bytes(*part);
   return sha256(out.bytes());
 }
 

@@ -88,19 +88,26 @@ std::uint32_t unfold(std::uint32_t f) { return (f >> 1) ^ (0u - (f & 1u)); }
 Bytes compress(const Bytes& raw) {
   Bytes packed(ZSTD_compressBound(raw.size()));
   const auto n = ZSTD_compress(packed.data(), packed.size(), raw.data(), raw.size(), k_level);
-  if (ZSTD_isError(n)) throw Error(msg("recording"), Name{ZSTD_getErrorName(n)}, msg("free some memory and try again"));
+  if (ZSTD_isError(n))
+    throw Error(msg("recording"), Name{ZSTD_getErrorName(n)},
+                msg("free some memory and try again"));
   packed.resize(n);
   return packed;
 }
 
-Bytes decompress(std::span<const std::uint8_t> packed, std::uint64_t least, std::uint64_t most, const Where& where) {
+Bytes decompress(std::span<const std::uint8_t> packed, std::uint64_t least, std::uint64_t most,
+                 const Where& where) {
   const auto size = ZSTD_getFrameContentSize(packed.data(), packed.size());
-  if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN) damaged(where, msg("the packed data have no valid beginning"));
-  if (size < least || size > most) damaged(where, msg("the packed data claim {} bytes, which does not fit the ticks", size));
-  if (ZSTD_findFrameCompressedSize(packed.data(), packed.size()) != packed.size()) damaged(where, msg("the packed data are not one frame"));
+  if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN)
+    damaged(where, msg("the packed data have no valid beginning"));
+  if (size < least || size > most)
+    damaged(where, msg("the packed data claim {} bytes, which does not fit the ticks", size));
+  if (ZSTD_findFrameCompressedSize(packed.data(), packed.size()) != packed.size())
+    damaged(where, msg("the packed data are not one frame"));
   Bytes raw(size);
   const auto n = ZSTD_decompress(raw.data(), raw.size(), packed.data(), packed.size());
-  if (ZSTD_getErrorCode(n) == ZSTD_error_memory_allocation) throw std::bad_alloc();  // nothing is wrong with the recording
+  if (ZSTD_getErrorCode(n) == ZSTD_error_memory_allocation)
+    throw std::bad_alloc();  // nothing is wrong with the recording
   if (ZSTD_isError(n) || n != size) damaged(where, msg("the packed data do not unpack"));
   return raw;
 }
@@ -115,7 +122,8 @@ Bytes pack_columns(std::span<const T> ticks) {
     const Words now = to_words(ticks[i]);
     for (std::size_t c = 0; c < columns; ++c) {
       const std::uint32_t f = fold(now[c] - 2 * before[c] + before2[c]);
-      for (std::size_t b = 0; b < 4; ++b) raw[(c * 4 + b) * n + i] = static_cast<std::uint8_t>(f >> (8 * b));
+      for (std::size_t b = 0; b < 4; ++b)
+        raw[(c * 4 + b) * n + i] = static_cast<std::uint8_t>(f >> (8 * b));
     }
     before2 = before;
     before = now;
@@ -124,7 +132,8 @@ Bytes pack_columns(std::span<const T> ticks) {
 }
 
 template <class T, class Words>
-std::vector<T> unpack_columns(std::span<const std::uint8_t> packed, std::int64_t ticks, const Where& where) {
+std::vector<T> unpack_columns(std::span<const std::uint8_t> packed, std::int64_t ticks,
+                              const Where& where) {
   constexpr std::size_t columns = std::tuple_size_v<Words>;
   if (ticks < 0 || ticks > k_chunk_ticks) damaged(where, msg("{} ticks in one chunk", ticks));
   const auto n = static_cast<std::size_t>(ticks);
@@ -136,7 +145,8 @@ std::vector<T> unpack_columns(std::span<const std::uint8_t> packed, std::int64_t
     Words now{};
     for (std::size_t c = 0; c < columns; ++c) {
       std::uint32_t f = 0;
-      for (std::size_t b = 0; b < 4; ++b) f |= static_cast<std::uint32_t>(raw[(c * 4 + b) * n + i]) << (8 * b);
+      for (std::size_t b = 0; b < 4; ++b)
+        f |= static_cast<std::uint32_t>(raw[(c * 4 + b) * n + i]) << (8 * b);
       now[c] = unfold(f) + 2 * before[c] - before2[c];
     }
     out.push_back(from_words(now, where));
@@ -146,12 +156,16 @@ std::vector<T> unpack_columns(std::span<const std::uint8_t> packed, std::int64_t
   return out;
 }
 
-std::uint16_t coordinate(const RemovedLeaf& leaf, int axis) { return static_cast<std::uint16_t>(axis == 0 ? leaf.x : axis == 1 ? leaf.y : leaf.z); }
+std::uint16_t coordinate(const RemovedLeaf& leaf, int axis) {
+  return static_cast<std::uint16_t>(axis == 0 ? leaf.x : axis == 1 ? leaf.y : leaf.z);
+}
 
 }  // namespace
 
 Bytes pack_inputs(std::span<const TickInput> inputs) { return pack_columns<InputWords>(inputs); }
-Bytes pack_records(std::span<const TickRecord> records) { return pack_columns<RecordWords>(records); }
+Bytes pack_records(std::span<const TickRecord> records) {
+  return pack_columns<RecordWords>(records);
+}
 
 Bytes pack_removed(const RemovedTicks& removed) {
   ByteWriter raw;
@@ -168,14 +182,17 @@ Bytes pack_removed(const RemovedTicks& removed) {
   return compress(raw.bytes());
 }
 
-std::vector<TickInput> unpack_inputs(std::span<const std::uint8_t> packed, std::int64_t ticks, const Where& where) {
+std::vector<TickInput> unpack_inputs(std::span<const std::uint8_t> packed, std::int64_t ticks,
+                                     const Where& where) {
   return unpack_columns<TickInput, InputWords>(packed, ticks, where);
 }
-std::vector<TickRecord> unpack_records(std::span<const std::uint8_t> packed, std::int64_t ticks, const Where& where) {
+std::vector<TickRecord> unpack_records(std::span<const std::uint8_t> packed, std::int64_t ticks,
+                                       const Where& where) {
   return unpack_columns<TickRecord, RecordWords>(packed, ticks, where);
 }
 
-RemovedTicks unpack_removed(std::span<const std::uint8_t> packed, std::int64_t ticks, const Where& where) {
+RemovedTicks unpack_removed(std::span<const std::uint8_t> packed, std::int64_t ticks,
+                            const Where& where) {
   if (ticks < 0 || ticks > k_chunk_ticks) damaged(where, msg("{} ticks in one chunk", ticks));
   const Bytes raw = decompress(packed, static_cast<std::uint64_t>(ticks), k_largest_removed, where);
   ByteReader in(raw, where);
@@ -183,7 +200,8 @@ RemovedTicks unpack_removed(std::span<const std::uint8_t> packed, std::int64_t t
   std::uint64_t total = 0;
   for (std::int64_t i = 0; i < ticks; ++i) {
     const auto count = in.get_varint();
-    if (count > raw.size() || (total += count) > raw.size() / 4) damaged(where, msg("more removed leaves than the data hold"));
+    if (count > raw.size() || (total += count) > raw.size() / 4)
+      damaged(where, msg("more removed leaves than the data hold"));
     removed.counts.push_back(static_cast<std::uint32_t>(count));
   }
   removed.leaves.resize(total);
@@ -191,7 +209,8 @@ RemovedTicks unpack_removed(std::span<const std::uint8_t> packed, std::int64_t t
     std::uint16_t now = 0;
     for (auto& leaf : removed.leaves) {
       const auto difference = in.get_signed_varint();
-      if (difference < -32768 || difference > 32767) damaged(where, msg("a removed leaf lies outside every tooth"));
+      if (difference < -32768 || difference > 32767)
+        damaged(where, msg("a removed leaf lies outside every tooth"));
       now = static_cast<std::uint16_t>(now + static_cast<std::uint16_t>(difference));
       (axis == 0 ? leaf.x : axis == 1 ? leaf.y : leaf.z) = static_cast<std::int16_t>(now);
     }

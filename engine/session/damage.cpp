@@ -11,7 +11,8 @@ std::vector<Message> words_of(const Damages& damages) {
 }
 
 void to_json(nlohmann::json& json, const Damage& damage) {
-  json = fact_json(rows_of(damage.kind), static_cast<std::size_t>(damage.kind), damage.values, damage.message());
+  json = fact_json(rows_of(damage.kind), static_cast<std::size_t>(damage.kind), damage.values,
+                   damage.message());
 }
 
 }  // namespace cavum

@@ -1,5 +1,6 @@
-// What is found of a recording, and does not hold or must be known: in its file, its chain and its motion, in the exam that marking simulates again,
-// and in what stations and clocks say. One table has all kinds.
+// What is found of a recording, and does not hold or must be known: in its file, its chain and its
+// motion, in the exam that marking simulates again, and in what stations and clocks say. One table
+// has all kinds.
 #pragma once
 
 #include <utility>
@@ -21,10 +22,10 @@ namespace cavum {
   DAMAGE(row_unreadable, recording_unsound, "table {}, row {}: {}", "table", "row", "why") \
   DAMAGE(nothing_in_it, recording_unsound, "table meta: empty", ) \
   /* facts, files, events */ \
-  DAMAGE(format_other, recording_unsound, "table meta: the format is said to be '{}', and this is format {}", "said", "format") \
-  DAMAGE(fact_malformed, recording_unsound, "table meta: {} is '{}', which is no whole number in its range", "fact", "said") \
+  DAMAGE(format_other, recording_unsound, "table meta: the format is said to be '{}', and this is format {}", "stated", "format") \
+  DAMAGE(fact_malformed, recording_unsound, "table meta: {} is '{}', which is no whole number in its range", "fact", "stated") \
   DAMAGE(fact_outside, recording_unsound, "table meta: {} lies outside every tooth", "fact") \
-  DAMAGE(tick_other, recording_unsound, "table meta: a tick is said to last '{}' s, and by servo.toml it lasts {}", "said", "tick_s") \
+  DAMAGE(tick_other, recording_unsound, "table meta: a tick is said to last '{}' s, and by servo.toml it lasts {}", "stated", "tick_s") \
   DAMAGE(beginning_signature, recording_unsound, "table meta: the signature of the station that began the session does not hold (a fact, a file or the key was changed)", ) \
   DAMAGE(beginning_changed, recording_unsound, "table meta or artifact: not what the chain of this session began with (a fact, a file or a hash was changed)", ) \
   DAMAGE(artifact_changed, recording_unsound, "table artifact: '{}' was changed after it was recorded", "artifact") \

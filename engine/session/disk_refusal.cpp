@@ -28,7 +28,8 @@ Message in_words(DiskFault fault) {
 }  // namespace
 
 Message in_words(const DiskRefusal& refusal) {
-  return refusal.error == 0 ? in_words(refusal.fault) : msg("{} ({})", in_words(refusal.fault), system_words(refusal.error));
+  return refusal.error == 0 ? in_words(refusal.fault)
+                            : msg("{} ({})", in_words(refusal.fault), system_words(refusal.error));
 }
 
 }  // namespace cavum

@@ -1,4 +1,5 @@
-// Why a disk did not take what was to be written: the kind, and the system's own number. A recording that went on elsewhere keeps it.
+// Why a disk did not take what was to be written: the kind, and the system's own number. A
+// recording that went on elsewhere keeps it.
 #pragma once
 
 #include <array>
@@ -8,8 +9,17 @@
 
 namespace cavum {
 
-enum class DiskFault : std::uint8_t { full, input_output, held, not_opened, read_only, damaged, other };
-inline constexpr std::array k_disk_faults{"full", "input_output", "held", "not_opened", "read_only", "damaged", "other"};
+enum class DiskFault : std::uint8_t {
+  full,
+  input_output,
+  held,
+  not_opened,
+  read_only,
+  damaged,
+  other
+};
+inline constexpr std::array k_disk_faults{"full",      "input_output", "held", "not_opened",
+                                          "read_only", "damaged",      "other"};
 static_assert(k_disk_faults.size() == static_cast<std::size_t>(DiskFault::other) + 1);
 [[nodiscard]] constexpr auto names_of(DiskFault) { return k_disk_faults; }
 

@@ -66,44 +66,47 @@ struct KindRow {
 /// What each kind is called, in files and by people; by its place in Event.
 constexpr auto k_kinds = [] {
   std::array<KindRow, std::variant_size_v<Event>> rows;
-  const auto row = [&rows]<class E>(Is<E>, const char* name, const char* words) { rows[place_in<E>(Is<Event>())] = {name, words}; };
-  row(Is<StepStarted>(), "step_started", said("step started"));
-  row(Is<StepCompleted>(), "step_completed", said("step completed"));
-  row(Is<StepFailed>(), "step_failed", said("step failed"));
-  row(Is<StepTimeUp>(), "step_time_limit", said("step time limit"));
-  row(Is<TimeUp>(), "time_limit", said("time limit"));
-  row(Is<BurNotAllowed>(), "bur_not_allowed", said("bur not allowed"));
-  row(Is<OverSpeed>(), "over_speed", said("over speed"));
-  row(Is<AimReached>(), "aim_reached", said("aim reached"));
-  row(Is<Perforated>(), "perforation", said("perforation"));
-  row(Is<Finished>(), "finished", said("finished"));
-  row(Is<PauseStarted>(), "pause_started", said("pause started"));
-  row(Is<PauseEnded>(), "pause_ended", said("pause ended"));
-  row(Is<PauseRefused>(), "pause_refused", said("pause refused"));
-  row(Is<HoldStarted>(), "hold_started", said("hold started"));
-  row(Is<HoldEnded>(), "hold_ended", said("hold ended"));
-  row(Is<RecordingGap>(), "gap", said("gap"));
-  row(Is<RecordingMoved>(), "moved", said("moved"));
-  row(Is<ServoGap>(), "servo_gap", said("servo gap"));
-  row(Is<Overruns>(), "overruns", said("overruns"));
-  row(Is<StylusSilent>(), "stylus_silent", said("stylus silent"));
-  row(Is<StylusBack>(), "stylus_back", said("stylus back"));
-  row(Is<PedalLost>(), "pedal_lost", said("pedal lost"));
-  row(Is<PedalBack>(), "pedal_back", said("pedal back"));
-  row(Is<ServoStopped>(), "servo_stopped", said("servo stopped"));
-  row(Is<ServoDisagrees>(), "servo_disagrees", said("servo disagrees"));
-  row(Is<ServoLateness>(), "servo_lateness", said("servo lateness"));
-  row(Is<WorkAfterEnd>(), "late_work", said("late work"));
-  row(Is<LockAttempt>(), "lock", said("lock"));
-  row(Is<OfficeHold>(), "office_hold", said("office hold"));
-  row(Is<OfficeHoldReleased>(), "office_hold_released", said("office hold released"));
-  row(Is<Announced>(), "announcement", said("announcement"));
-  row(Is<AnnouncementRead>(), "announcement_read", said("announcement read"));
-  row(Is<TutorialStep>(), "tutorial", said("tutorial"));
-  row(Is<MeasuredForce>(), "measured_force", said("measured force"));
+  const auto row = [&rows]<class E>(Is<E>, const char* name, const char* words) {
+    rows[place_in<E>(Is<Event>())] = {name, words};
+  };
+  row(Is<StepStarted>(), "step_started", noop("step started"));
+  row(Is<StepCompleted>(), "step_completed", noop("step completed"));
+  row(Is<StepFailed>(), "step_failed", noop("step failed"));
+  row(Is<StepTimeUp>(), "step_time_limit", noop("step time limit"));
+  row(Is<TimeUp>(), "time_limit", noop("time limit"));
+  row(Is<BurNotAllowed>(), "bur_not_allowed", noop("bur not allowed"));
+  row(Is<OverSpeed>(), "over_speed", noop("over speed"));
+  row(Is<AimReached>(), "aim_reached", noop("aim reached"));
+  row(Is<Perforated>(), "perforation", noop("perforation"));
+  row(Is<Finished>(), "finished", noop("finished"));
+  row(Is<PauseStarted>(), "pause_started", noop("pause started"));
+  row(Is<PauseEnded>(), "pause_ended", noop("pause ended"));
+  row(Is<PauseRefused>(), "pause_refused", noop("pause refused"));
+  row(Is<HoldStarted>(), "hold_started", noop("hold started"));
+  row(Is<HoldEnded>(), "hold_ended", noop("hold ended"));
+  row(Is<RecordingGap>(), "gap", noop("gap"));
+  row(Is<RecordingMoved>(), "moved", noop("moved"));
+  row(Is<ServoGap>(), "servo_gap", noop("servo gap"));
+  row(Is<Overruns>(), "overruns", noop("overruns"));
+  row(Is<StylusSilent>(), "stylus_silent", noop("stylus silent"));
+  row(Is<StylusBack>(), "stylus_back", noop("stylus back"));
+  row(Is<PedalLost>(), "pedal_lost", noop("pedal lost"));
+  row(Is<PedalBack>(), "pedal_back", noop("pedal back"));
+  row(Is<ServoStopped>(), "servo_stopped", noop("servo stopped"));
+  row(Is<ServoDisagrees>(), "servo_disagrees", noop("servo disagrees"));
+  row(Is<ServoLateness>(), "servo_lateness", noop("servo lateness"));
+  row(Is<WorkAfterEnd>(), "late_work", noop("late work"));
+  row(Is<LockAttempt>(), "lock", noop("lock"));
+  row(Is<OfficeHold>(), "office_hold", noop("office hold"));
+  row(Is<OfficeHoldReleased>(), "office_hold_released", noop("office hold released"));
+  row(Is<Announced>(), "announcement", noop("announcement"));
+  row(Is<AnnouncementRead>(), "announcement_read", noop("announcement read"));
+  row(Is<TutorialStep>(), "tutorial", noop("tutorial"));
+  row(Is<MeasuredForce>(), "measured_force", noop("measured force"));
   return rows;
 }();
-static_assert(std::ranges::none_of(k_kinds, [](const KindRow& row) { return row.name == nullptr; }));
+static_assert(std::ranges::none_of(k_kinds,
+                                   [](const KindRow& row) { return row.name == nullptr; }));
 
 /// Texts and names on one line.
 json on_lines(const json& j) {
@@ -124,21 +127,28 @@ json detail_of(const Event& event) {
 
 /// True when it is one of these kinds.
 template <class... Kinds>
-bool read_kind(const std::string& kind, const json& detail, const JsonPlace& at, std::variant<Kinds...>& out) {
-  return ((kind == k_kinds[place_in<Kinds>(Is<Event>())].name && (read_json_value(detail, at, out.template emplace<Kinds>()), true)) || ...);
+bool read_kind(const std::string& kind, const json& detail, const JsonLocation& at,
+               std::variant<Kinds...>& out) {
+  return ((kind == k_kinds[place_in<Kinds>(Is<Event>())].name &&
+           (read_json_value(detail, at, out.template emplace<Kinds>()), true)) ||
+          ...);
 }
 
 }  // namespace
 
-double RecordingGap::utc_s() const noexcept {  // whatever a file says, the difference wraps around instead of overflowing
-  return static_cast<double>(static_cast<std::int64_t>(static_cast<std::uint64_t>(resumed_utc_ns) - static_cast<std::uint64_t>(last_utc_ns))) * 1e-9;
+double RecordingGap::utc_s()
+    const noexcept {  // whatever a file says, the difference wraps around instead of overflowing
+  return static_cast<double>(static_cast<std::int64_t>(static_cast<std::uint64_t>(resumed_utc_ns) -
+                                                       static_cast<std::uint64_t>(last_utc_ns))) *
+         1e-9;
 }
 
 const char* kind_of(const Event& event) { return k_kinds[event.index()].name; }
 Term word_of(const Event& event) { return {k_kinds[event.index()].words}; }
 
 bool operator==(const TimedEvent& a, const TimedEvent& b) {
-  return a.tick == b.tick && a.event.index() == b.event.index() && detail_of(a.event) == detail_of(b.event);
+  return a.tick == b.tick && a.event.index() == b.event.index() &&
+         detail_of(a.event) == detail_of(b.event);
 }
 
 EventText encode(const Event& event) { return {kind_of(event), detail_of(event).dump()}; }
@@ -149,9 +159,12 @@ Event decode(const EventText& text, const Where& where) {
   const JsonSource source{at, msg("use an intact copy")};
   Event event;
   if (!read_kind(text.kind, was, {source}, event))
-    throw Error(FileError::unknown, at, msg("is no kind of event"), msg("use an intact copy, or the program that recorded it"));
+    throw Error(FileError::unknown, at, msg("is no kind of event"),
+                msg("use an intact copy, or the program that recorded it"));
   if (detail_of(event).dump() != text.detail_json)
-    throw Error(FileError::malformed, at, msg("its detail is not written as docs/formats/session.md says"), msg("use an intact copy"));
+    throw Error(FileError::malformed, at,
+                msg("its detail is not written as docs/formats/session.md says"),
+                msg("use an intact copy"));
   return event;
 }
 

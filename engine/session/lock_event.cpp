@@ -11,7 +11,8 @@ Message lock_words(const LockAttempt& a) {
     case LockTry::close_refused:
       return msg("a wrong supervisor code was typed");
     case LockTry::close_granted:
-      return a.by_supervisor ? msg("the window was closed with the supervisor code") : msg("the window was closed");
+      return a.by_supervisor ? msg("the window was closed with the supervisor code")
+                             : msg("the window was closed");
     case LockTry::focus_lost:
       return msg("another window took the keyboard");
     case LockTry::focus_back:
@@ -33,7 +34,8 @@ std::vector<LockSummary> lock_summary(std::span<const TimedEvent> events) {
   for (const TimedEvent& e : events) {
     const auto* a = e.as<LockAttempt>();
     if (a == nullptr) continue;
-    const auto known = std::find_if(all.begin(), all.end(), [&](const LockSummary& s) { return s.first.what == a->what; });
+    const auto known = std::find_if(all.begin(), all.end(),
+                                    [&](const LockSummary& s) { return s.first.what == a->what; });
     if (known == all.end())
       all.push_back({*a, e.tick, 1});
     else

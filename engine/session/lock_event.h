@@ -1,4 +1,5 @@
-// What was tried to leave a locked exam (LockAttempt), in words for people. Nothing in the motion shows it; it is the station's word.
+// What was tried to leave a locked exam (LockAttempt), in words for people. Nothing in the motion
+// shows it; it is the station's word.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Who holds a file that cannot be had, as far as Linux tells: the locks in /proc/locks, of the file and of its write-ahead log's index.
+// Who holds a file that cannot be had, as far as Linux tells: the locks in /proc/locks, of the file
+// and of its write-ahead log's index.
 #pragma once
 
 #include <string>
@@ -7,8 +8,8 @@
 
 namespace cavum {
 
-/// "another program: cavum (process 1234)", "another program" when nobody can be named, and "this program itself" when it is another connection of
-/// our own.
+/// "another program: cavum (process 1234)", "another program" when nobody can be named, and "this
+/// program itself" when it is another connection of our own.
 [[nodiscard]] Message holder_of(const std::string& database_path);
 
 }  // namespace cavum

@@ -52,9 +52,10 @@ Message in_words(const MotionSource& source) {
 }
 
 std::vector<SourceFrom> sources_of(const SessionReader& session) {
-  std::vector<SourceFrom> out{{0,
-                               {source_kind_of(session.fact(k_source_fact)).value_or(SourceKind::unnamed), session.fact(k_source_name_fact),
-                                session.fact(k_source_serial_fact)}}};
+  std::vector<SourceFrom> out{
+      {0,
+       {source_kind_of(session.fact(k_source_fact)).value_or(SourceKind::unnamed),
+        session.fact(k_source_name_fact), session.fact(k_source_serial_fact)}}};
   for (const auto& e : session.event_rows())
     if (const auto* gap = e.as<RecordingGap>(); gap != nullptr && e.tick < session.ticks())
       out.push_back({e.tick, gap->by.source.value_or(MotionSource{.kind = SourceKind::unnamed})});

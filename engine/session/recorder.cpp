@@ -25,11 +25,13 @@
 namespace cavum {
 namespace {
 
-constexpr char k_insert_chunk[] = "INSERT INTO chunk VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)";
+constexpr char k_insert_chunk[] =
+    "INSERT INTO chunk VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)";
 constexpr char k_insert_event[] = "INSERT INTO event VALUES (?, ?, ?, ?, ?)";
 
 std::map<std::string, std::string> meta_of(const SessionSetup& setup, const Clocks& now) {
-  const std::string tick = fmt::format("{:.17g}", parse_servo_config(setup.servo_toml, "servo.toml").tick_s);
+  const std::string tick =
+      fmt::format("{:.17g}", parse_servo_config(setup.servo_toml, "servo.toml").tick_s);
   std::map<std::string, std::string> meta{
       {"format", std::to_string(k_session_format)},
       {"engine_version", version()},
@@ -55,10 +57,16 @@ std::map<std::string, std::string> meta_of(const SessionSetup& setup, const Cloc
 
 void insert_artifact(Database& database, std::int64_t seq, const Artifact& a) {
   Statement s = database.prepare("INSERT INTO artifact VALUES (?, ?, ?, ?, ?)");
-  s.bind(1, seq).bind(2, a.name).bind(3, a.sha256).bind(4, static_cast<std::int64_t>(a.bytes.size())).bind(5, a.bytes).run();
+  s.bind(1, seq)
+      .bind(2, a.name)
+      .bind(3, a.sha256)
+      .bind(4, static_cast<std::int64_t>(a.bytes.size()))
+      .bind(5, a.bytes)
+      .run();
 }
 
-void write_setup(const std::string& path, const std::map<std::string, std::string>& meta, const std::vector<Artifact>& artifacts) {
+void write_setup(const std::string& path, const std::map<std::string, std::string>& meta,
+                 const std::vector<Artifact>& artifacts) {
   Database database = Database::open(path, true);
   // Small pages: a chunk fills its last page by half on average.
   database.run("PRAGMA page_size = 1024; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON");
@@ -70,7 +78,8 @@ void write_setup(const std::string& path, const std::map<std::string, std::strin
     Statement insert = database.prepare("INSERT INTO meta VALUES (?, ?)");
     for (const auto& [key, value] : meta) insert.bind(1, key).bind(2, value).run();
   }
-  for (std::size_t i = 0; i < artifacts.size(); ++i) insert_artifact(database, static_cast<std::int64_t>(i), artifacts[i]);
+  for (std::size_t i = 0; i < artifacts.size(); ++i)
+    insert_artifact(database, static_cast<std::int64_t>(i), artifacts[i]);
   transaction.commit();
 }
 
@@ -81,24 +90,29 @@ void put_session_in_place(const std::string& made, const std::string& path) {
     placed = put_in_place(made, path);
   } catch (const Error& refusal) {
     ::unlink(made.c_str());
-    throw DatabaseError(refusal, DiskFault::input_output);  // the disk's, as any while recording: an exam then begins at its second place
+    throw DatabaseError(refusal,
+                        DiskFault::input_output);  // the disk's, as any while recording: an exam
+                                                   // then begins at its second place
   }
   if (placed) return;
   ::unlink(made.c_str());
-  throw Error(FileError::exists, Name{path}, msg("exists already: another exam began to record into it"),
+  throw Error(FileError::exists, Name{path},
+              msg("exists already: another exam began to record into it"),
               msg("choose another name; an existing session is never overwritten"));
 }
 
 constexpr char k_being_made[] = ".new-";
 
-/// A process that is killed while it begins a session leaves NAME.new-PID (and its journal) behind. Those of this name go when the next
-/// session of the name is begun, unless their process still runs. What cannot be removed stays: it harms nothing.
+/// A process that is killed while it begins a session leaves NAME.new-PID (and its journal) behind.
+/// Those of this name go when the next session of the name is begun, unless their process still
+/// runs. What cannot be removed stays: it harms nothing.
 void remove_leftovers(const std::string& path) {
   const std::filesystem::path file(path);
   const std::string begin = file.filename().string() + k_being_made;
   std::error_code none;
   std::vector<std::filesystem::path> gone;
-  for (const auto& entry : std::filesystem::directory_iterator(file.has_parent_path() ? file.parent_path() : ".", none)) {
+  for (const auto& entry : std::filesystem::directory_iterator(
+           file.has_parent_path() ? file.parent_path() : ".", none)) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(begin)) continue;
     int pid = 0;
@@ -129,19 +143,22 @@ void make_single_file(Database& database) {
 Recorder::Recorder(std::string path, SigningKey key, ReadClocks clocks)
     : path_(std::move(path)), key_(key), clocks_(std::move(clocks)), pending_(1) {}
 
-Recorder Recorder::create(const std::string& path, const SessionSetup& setup, const ReadClocks& clocks) {
+Recorder Recorder::create(const std::string& path, const SessionSetup& setup,
+                          const ReadClocks& clocks) {
   const auto need = [&](bool there, const Message& what) {
     if (!there) throw Error(FileError::missing, Name{path}, what, msg("give it in the setup"));
   };
   need(!setup.tooth.empty(), msg("a session needs a tooth"));
-  need(!setup.burs_toml.empty() && setup.burs_toml.size() <= 255, msg("a session needs between 1 and 255 burs"));
+  need(!setup.burs_toml.empty() && setup.burs_toml.size() <= 255,
+       msg("a session needs between 1 and 255 burs"));
   need(!setup.force_model_toml.empty(), msg("a session needs a force model"));
   need(!setup.servo_toml.empty(), msg("a session needs servo settings"));
   need(!setup.candidate.empty(), msg("a session needs the candidate's pseudonym"));
   need(setup.source.kind != SourceKind::unnamed, msg("a session needs what moves the stylus"));
   std::set<std::string> attached;
   for (const auto& [name, bytes] : setup.attachments)
-    if (!attached.insert(name).second) throw Error(path, msg("two attachments are named '{}'", name), msg("give each its own name"));
+    if (!attached.insert(name).second)
+      throw Error(path, msg("two attachments are named '{}'", name), msg("give each its own name"));
   require_free(path);
 
   Recorder recorder(path, load_station_key(station_key_path()), clocks);
@@ -150,7 +167,10 @@ Recorder Recorder::create(const std::string& path, const SessionSetup& setup, co
   meta[k_station_fact] = to_hex(recorder.key_.public_key);
   meta[k_begun_fact] = to_hex(recorder.key_.sign(begin_message(meta, artifacts)));
   remove_leftovers(path);
-  const std::string made = path + k_being_made + std::to_string(::getpid());  // of this process alone: two exams may be begun under one name at once
+  const std::string made =
+      path + k_being_made +
+      std::to_string(
+          ::getpid());  // of this process alone: two exams may be begun under one name at once
   ::unlink(made.c_str());
   ::unlink((made + "-journal").c_str());
   try {
@@ -165,7 +185,8 @@ Recorder Recorder::create(const std::string& path, const SessionSetup& setup, co
   recorder.next_artifact_ = static_cast<std::int64_t>(artifacts.size());
   try {
     recorder.open_for_recording();
-  } catch (const Error&) {  // the disk took the setup and nothing more: no session is left behind that nobody began
+  } catch (const Error&) {  // the disk took the setup and nothing more: no session is left behind
+                            // that nobody began
     recorder.database_.reset();
     for (const char* end : {"", "-wal", "-shm", "-journal"}) ::unlink((path + end).c_str());
     throw;
@@ -176,18 +197,23 @@ Recorder Recorder::create(const std::string& path, const SessionSetup& setup, co
 void Recorder::open_for_recording() {
   database_ = Database::open(path_, false);
   // exclusive: no second recorder, and the index of the log stays in memory
-  database_->run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA foreign_keys = ON; PRAGMA synchronous = FULL; PRAGMA wal_autocheckpoint = 4000");
-  database_->run("PRAGMA cache_size = -512");  // KiB: what is written is not read again, and an exam's memory stays the same for its whole length
+  database_->run(
+      "PRAGMA locking_mode = EXCLUSIVE; PRAGMA foreign_keys = ON; PRAGMA synchronous = FULL; PRAGMA wal_autocheckpoint = 4000");
+  database_->run("PRAGMA cache_size = -512");  // KiB: what is written is not read again, and an
+                                               // exam's memory stays the same for its whole length
   if (database_->text("PRAGMA journal_mode = WAL") != "wal")
-    throw Error(path_, msg("the file system does not allow a write-ahead log"), msg("record to a local disk"));
+    throw Error(path_, msg("the file system does not allow a write-ahead log"),
+                msg("record to a local disk"));
   insert_chunk_ = database_->prepare(k_insert_chunk);
   insert_event_ = database_->prepare(k_insert_event);
 }
 
 Recorder::~Recorder() {
   try {
-    if (database_ && !sealed_ && !pending_.empty()) flush();  // a recorder that was moved from has nothing, not even the running second
-  } catch (const std::exception&) {                           // everything written so far stands; the rest is lost with the process
+    if (database_ && !sealed_ && !pending_.empty())
+      flush();  // a recorder that was moved from has nothing, not even the running second
+  } catch (const std::exception&) {  // everything written so far stands; the rest is lost with the
+                                     // process
   }
 }
 
@@ -198,14 +224,18 @@ void Recorder::require_database() {
 }
 
 void Recorder::require_open() const {
-  if (sealed_) throw Error(SessionError::closed, Name{path_}, msg("the session is closed"), msg("record into a new one"));
+  if (sealed_)
+    throw Error(SessionError::closed, Name{path_}, msg("the session is closed"),
+                msg("record into a new one"));
 }
 
-void Recorder::append(const TickInput& input, const TickRecord& record, std::span<const RemovedLeaf> removed, std::uint64_t state_hash) {
+void Recorder::append(const TickInput& input, const TickRecord& record,
+                      std::span<const RemovedLeaf> removed, std::uint64_t state_hash) {
   require_open();
   if (record.removed != removed.size())
     throw Error(FileError::inconsistent, Name{path_},
-                msg("tick {} lists {} removed leaves, its record says {}", ticks_, removed.size(), record.removed),
+                msg("tick {} lists {} removed leaves, its record says {}", ticks_, removed.size(),
+                    record.removed),
                 msg("hand over state.removed of the same tick"));
   Pending& now = pending_.back();
   now.inputs.push_back(input);
@@ -214,7 +244,9 @@ void Recorder::append(const TickInput& input, const TickRecord& record, std::spa
   now.removed.leaves.insert(now.removed.leaves.end(), removed.begin(), removed.end());
   now.state_hash = state_hash;
   ++ticks_;
-  if (static_cast<std::int64_t>(now.inputs.size()) < k_chunk_ticks && now.removed.leaves.size() < k_chunk_leaves) return;
+  if (static_cast<std::int64_t>(now.inputs.size()) < k_chunk_ticks &&
+      now.removed.leaves.size() < k_chunk_leaves)
+    return;
   now.complete = clocks_();
   pending_.emplace_back();
   pending_.back().state_hash = state_hash;
@@ -239,7 +271,8 @@ void Recorder::flush() {
 
 void Recorder::move_to(const std::string& path, const DiskRefusal& why) {
   if (database_ && !database_->is_open() && sealed_)
-    throw Error(SessionError::closed, Name{path_}, msg("the session is closed"), msg("copy its file"));
+    throw Error(SessionError::closed, Name{path_}, msg("the session is closed"),
+                msg("copy its file"));
   require_database();
   require_free(path);
   const std::string made = path + k_being_made + std::to_string(::getpid());
@@ -290,19 +323,36 @@ void Recorder::write_chunk(const Pending& pending) {
   c.records_sha256 = sha256(c.records);
   c.removed_sha256 = sha256(c.removed);
   std::vector<EventRow> events;
-  for (const auto& e : pending.events) events.push_back({e, next_event_ + static_cast<std::int64_t>(events.size()), c.seq});
+  for (const auto& e : pending.events)
+    events.push_back({e, next_event_ + static_cast<std::int64_t>(events.size()), c.seq});
   c.events_sha256 = events_hash(events);
   c.prev_sha256 = chain_;
   c.sha256 = chunk_hash(c);
 
   Transaction transaction(*database_);
-  insert_chunk_->bind(1, c.seq).bind(2, c.first_tick).bind(3, c.ticks).bind(4, c.inputs).bind(5, c.records).bind(6, c.removed);
-  insert_chunk_->bind(7, static_cast<std::int64_t>(c.state_hash)).bind(8, c.clocks.monotonic_ns).bind(9, c.clocks.boot_ns).bind(10, c.clocks.utc_ns);
-  insert_chunk_->bind(11, c.inputs_sha256).bind(12, c.records_sha256).bind(13, c.removed_sha256).bind(14, c.events_sha256);
+  insert_chunk_->bind(1, c.seq)
+      .bind(2, c.first_tick)
+      .bind(3, c.ticks)
+      .bind(4, c.inputs)
+      .bind(5, c.records)
+      .bind(6, c.removed);
+  insert_chunk_->bind(7, static_cast<std::int64_t>(c.state_hash))
+      .bind(8, c.clocks.monotonic_ns)
+      .bind(9, c.clocks.boot_ns)
+      .bind(10, c.clocks.utc_ns);
+  insert_chunk_->bind(11, c.inputs_sha256)
+      .bind(12, c.records_sha256)
+      .bind(13, c.removed_sha256)
+      .bind(14, c.events_sha256);
   insert_chunk_->bind(15, c.prev_sha256).bind(16, c.sha256).run();
   for (const auto& e : events) {
     const EventText text = encode(e.event);
-    insert_event_->bind(1, e.seq).bind(2, e.tick).bind(3, e.chunk).bind(4, text.kind).bind(5, text.detail_json).run();
+    insert_event_->bind(1, e.seq)
+        .bind(2, e.tick)
+        .bind(3, e.chunk)
+        .bind(4, text.kind)
+        .bind(5, text.detail_json)
+        .run();
   }
   transaction.commit();
 
@@ -310,10 +360,13 @@ void Recorder::write_chunk(const Pending& pending) {
   ++next_chunk_;
   next_event_ += static_cast<std::int64_t>(events.size());
   ticks_on_disk_ += c.ticks;
-  slowest_write_s_ = std::max(slowest_write_s_, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  slowest_write_s_ =
+      std::max(slowest_write_s_,
+               std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
-void Recorder::write_seal(std::span<const std::uint8_t> final_tooth, const std::string& result_json) {
+void Recorder::write_seal(std::span<const std::uint8_t> final_tooth,
+                          const std::string& result_json) {
   flush();
   Seal seal;
   seal.chain_sha256 = chain_;
@@ -326,12 +379,21 @@ void Recorder::write_seal(std::span<const std::uint8_t> final_tooth, const std::
   seal.public_key = key_.public_key;
   seal.signature = key_.sign(seal_message(seal));
   Transaction transaction(*database_);
-  insert_artifact(*database_, next_artifact_, {k_final_tooth, seal.final_tooth_sha256, Bytes(final_tooth.begin(), final_tooth.end())});
+  insert_artifact(
+      *database_, next_artifact_,
+      {k_final_tooth, seal.final_tooth_sha256, Bytes(final_tooth.begin(), final_tooth.end())});
   Statement result = database_->prepare("INSERT INTO result VALUES (0, ?)");
   result.bind(1, result_json).run();
   Statement s = database_->prepare("INSERT INTO seal VALUES (0, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  s.bind(1, seal.chain_sha256).bind(2, seal.final_tooth_sha256).bind(3, seal.result_sha256).bind(4, seal.chunks).bind(5, seal.ticks);
-  s.bind(6, seal.events).bind(7, seal.clocks.monotonic_ns).bind(8, seal.clocks.boot_ns).bind(9, seal.clocks.utc_ns);
+  s.bind(1, seal.chain_sha256)
+      .bind(2, seal.final_tooth_sha256)
+      .bind(3, seal.result_sha256)
+      .bind(4, seal.chunks)
+      .bind(5, seal.ticks);
+  s.bind(6, seal.events)
+      .bind(7, seal.clocks.monotonic_ns)
+      .bind(8, seal.clocks.boot_ns)
+      .bind(9, seal.clocks.utc_ns);
   s.bind(10, seal.public_key).bind(11, seal.signature).run();
   transaction.commit();
   sealed_ = true;
@@ -339,8 +401,10 @@ void Recorder::write_seal(std::span<const std::uint8_t> final_tooth, const std::
 
 void Recorder::close(std::span<const std::uint8_t> final_tooth, const std::string& result_json) {
   if (final_tooth.empty())
-    throw Error(FileError::missing, Name{path_}, msg("the final tooth is missing"), msg("give save_tooth of the drilled tooth"));
-  if (!is_json(result_json, k_json_part)) throw Error(path_, msg("the result is not JSON"), msg("give one JSON value"));
+    throw Error(FileError::missing, Name{path_}, msg("the final tooth is missing"),
+                msg("give save_tooth of the drilled tooth"));
+  if (!is_json(result_json, k_json_part))
+    throw Error(path_, msg("the result is not JSON"), msg("give one JSON value"));
   require_database();
   if (!sealed_) write_seal(final_tooth, result_json);
   insert_chunk_.reset();

@@ -1,6 +1,6 @@
-// Writes a session while the exam runs: every second of motion is one transaction, chained to the one
-// before and synced to disk. It waits for the disk (typically 1 ms, now and then 10): call it from the
-// writer thread, never from the servo.
+// Writes a session while the exam runs: every second of motion is one transaction, chained to the
+// one before and synced to disk. It waits for the disk (typically 1 ms, now and then 10): call it
+// from the writer thread, never from the servo.
 #pragma once
 
 #include <deque>
@@ -18,35 +18,42 @@ namespace cavum {
 
 class Recorder {
  public:
-  /// A new session file holding the setup. Throws Error when `path` exists or cannot be written, when the
-  /// setup lacks tooth, burs, force model or servo settings or names no source of motion, or when the station has no usable key.
-  [[nodiscard]] static Recorder create(const std::string& path, const SessionSetup& setup, const ReadClocks& clocks = read_clocks);
+  /// A new session file holding the setup. Throws Error when `path` exists or cannot be written,
+  /// when the setup lacks tooth, burs, force model or servo settings or names no source of motion,
+  /// or when the station has no usable key.
+  [[nodiscard]] static Recorder create(const std::string& path, const SessionSetup& setup,
+                                       const ReadClocks& clocks = read_clocks);
 
   Recorder(Recorder&&) = default;
   Recorder& operator=(Recorder&&) = delete;
   /// Writes what is pending, if it can. A session that was not closed can be resumed.
   ~Recorder();
 
-  /// Takes one tick: its input, what the servo made of it, the leaves it removed (`record.removed` of them) and
-  /// state_hash(ServoState) after it. Each full second is written at once. When that fails (disk full …) it
-  /// throws Error, and the tick is kept nevertheless: make room and go on with the next tick, or call `flush`.
-  /// Nothing is lost while the process lives; what is pending is written with the next full second.
-  void append(const TickInput& input, const TickRecord& record, std::span<const RemovedLeaf> removed, std::uint64_t state_hash);
+  /// Takes one tick: its input, what the servo made of it, the leaves it removed (`record.removed`
+  /// of them) and state_hash(ServoState) after it. Each full second is written at once. When that
+  /// fails (disk full …) it throws Error, and the tick is kept nevertheless: make room and go on
+  /// with the next tick, or call `flush`. Nothing is lost while the process lives; what is pending
+  /// is written with the next full second.
+  void append(const TickInput& input, const TickRecord& record,
+              std::span<const RemovedLeaf> removed, std::uint64_t state_hash);
 
   /// Notes an event; it is written with the running second.
   void add_event(std::int64_t tick, Event event);
 
-  /// Writes everything pending, the running second included. Throws Error like `append`; call again after making room.
+  /// Writes everything pending, the running second included. Throws Error like `append`; call again
+  /// after making room.
   void flush();
 
-  /// Writes the rest, the tooth as it is now (save_tooth) and the result, signs, and leaves a single file.
-  /// Throws Error when it cannot; nothing is lost, call again. After success only `ticks` may be called.
+  /// Writes the rest, the tooth as it is now (save_tooth) and the result, signs, and leaves a
+  /// single file. Throws Error when it cannot; nothing is lost, call again. After success only
+  /// `ticks` may be called.
   void close(std::span<const std::uint8_t> final_tooth, const std::string& result_json);
 
-  /// Goes on in a new file at another place, for a disk that stays full: all that was written so far is copied there, RecordingMoved is noted,
-  /// what waits is written, and what comes goes there. The first file stays as it is: a session that was never closed.
-  /// Throws Error when `path` exists, or cannot be written either; before the copy is whole nothing has changed then, afterwards what waits goes on
-  /// waiting for the new place.
+  /// Goes on in a new file at another place, for a disk that stays full: all that was written so
+  /// far is copied there, RecordingMoved is noted, what waits is written, and what comes goes
+  /// there. The first file stays as it is: a session that was never closed. Throws Error when
+  /// `path` exists, or cannot be written either; before the copy is whole nothing has changed then,
+  /// afterwards what waits goes on waiting for the new place.
   void move_to(const std::string& path, const DiskRefusal& why);
 
   /// Where it records.

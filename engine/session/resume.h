@@ -1,5 +1,6 @@
-// Takes up an exam that was killed. The chain is checked, the recorded inputs are simulated again to reach
-// the very state the candidate left, the gap is noted, and recording goes on in the same file.
+// Takes up an exam that was killed. The chain is checked, the recorded inputs are simulated again
+// to reach the very state the candidate left, the gap is noted, and recording goes on in the same
+// file.
 #pragma once
 
 #include <functional>
@@ -19,9 +20,11 @@ struct ResumedSession {
   std::int64_t ticks = 0;  ///< already recorded: the number of the next tick
 };
 
-/// Throws Error when the file cannot be read, is closed, is damaged, replays differently, or is being recorded.
-/// Notes a RecordingGap; on a full disk it is kept like a tick that was refused (Recorder::append).
-[[nodiscard]] ResumedSession resume_session(const std::string& path, const TickVisitor& visit = {}, const ResumedBy& by = {},
+/// Throws Error when the file cannot be read, is closed, is damaged, replays differently, or is
+/// being recorded. Notes a RecordingGap; on a full disk it is kept like a tick that was refused
+/// (Recorder::append).
+[[nodiscard]] ResumedSession resume_session(const std::string& path, const TickVisitor& visit = {},
+                                            const ResumedBy& by = {},
                                             const ReadClocks& clocks = read_clocks);
 
 }  // namespace cavum

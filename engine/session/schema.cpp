@@ -2,8 +2,9 @@
 
 namespace cavum {
 
-// STRICT: SQLite itself then refuses a value of another type. Autoindexes are avoided (WITHOUT ROWID, integer
-// keys), so that every value exists once in the file and cannot disagree with a copy of itself.
+// STRICT: SQLite itself then refuses a value of another type. Autoindexes are avoided (WITHOUT
+// ROWID, integer keys), so that every value exists once in the file and cannot disagree with a copy
+// of itself.
 const std::array<const char*, 6> k_session_schema = {
     R"(CREATE TABLE meta (  -- who, when, with what; one row per fact. Covered by the chain's start
   key TEXT PRIMARY KEY,

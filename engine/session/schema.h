@@ -1,5 +1,5 @@
-// The tables of a session file. Comments stand inside the statements, so that `.schema` in any SQLite
-// shell explains the file without this program.
+// The tables of a session file. Comments stand inside the statements, so that `.schema` in any
+// SQLite shell explains the file without this program.
 #pragma once
 
 #include <array>

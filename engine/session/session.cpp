@@ -19,11 +19,15 @@ Artifact artifact(std::string name, Bytes bytes) {
   const Sha256 sum = sha256(bytes);
   return {std::move(name), sum, std::move(bytes)};
 }
-Artifact artifact(std::string name, const std::string& text) { return artifact(std::move(name), Bytes(text.begin(), text.end())); }
+Artifact artifact(std::string name, const std::string& text) {
+  return artifact(std::move(name), Bytes(text.begin(), text.end()));
+}
 
 }  // namespace
 
-Clocks read_clocks() { return {clock_ns(CLOCK_MONOTONIC), clock_ns(CLOCK_BOOTTIME), clock_ns(CLOCK_REALTIME)}; }
+Clocks read_clocks() {
+  return {clock_ns(CLOCK_MONOTONIC), clock_ns(CLOCK_BOOTTIME), clock_ns(CLOCK_REALTIME)};
+}
 
 std::string boot_id() {
   std::ifstream in("/proc/sys/kernel/random/boot_id");
@@ -48,12 +52,17 @@ std::vector<Artifact> artifacts_of(const SessionSetup& setup) {
   all.push_back(artifact("start_tooth.cvt", setup.tooth));
   for (std::size_t i = 0; i < setup.burs_toml.size(); ++i) {
     const std::string number = std::to_string(i);
-    all.push_back(artifact(fmt::format("bur_{}{}.toml", std::string(3 - std::min<std::size_t>(3, number.size()), '0'), number), setup.burs_toml[i]));
+    all.push_back(
+        artifact(fmt::format("bur_{}{}.toml",
+                             std::string(3 - std::min<std::size_t>(3, number.size()), '0'), number),
+                 setup.burs_toml[i]));
   }
   all.push_back(artifact("force_model.toml", setup.force_model_toml));
   all.push_back(artifact("servo.toml", setup.servo_toml));
-  if (!setup.landmarks_json.empty()) all.push_back(artifact("landmarks.json", setup.landmarks_json));
-  for (const auto& [name, bytes] : setup.attachments) all.push_back(artifact("attachment/" + name, bytes));
+  if (!setup.landmarks_json.empty())
+    all.push_back(artifact("landmarks.json", setup.landmarks_json));
+  for (const auto& [name, bytes] : setup.attachments)
+    all.push_back(artifact("attachment/" + name, bytes));
   return all;
 }
 

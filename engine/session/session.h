@@ -1,5 +1,6 @@
-// What one exam's recording is made of: what was examined, the motion in chunks of a second, events, and
-// the seal of closing. Plain values, shared by the recorder, the reader and the verifier.
+// What one exam's recording is made of: what was examined, the motion in chunks of a second,
+// events, and the seal of closing. Plain values, shared by the recorder, the reader and the
+// verifier.
 #pragma once
 
 #include <array>
@@ -33,18 +34,23 @@ struct SessionSetup {
   std::string scenario_toml;
   std::string rubric_toml;  ///< empty when the scenario's own rubric counts
   std::string force_model_toml;
-  std::string servo_toml;                                  ///< to_toml(ServoConfig)
-  std::vector<std::string> burs_toml;                      ///< burs in the order of the tray
-  Bytes tooth;                                             ///< compact tooth file before the first tick
-  std::array<std::int32_t, 3> first_tip_nm{};              ///< where the servo state starts, tooth frame
-  Notes notes;                                             ///< further facts by key (operator's seed, room …)
-  std::string landmarks_json;                              ///< of the tooth, where the scenario's zones follow them; empty otherwise
-  std::vector<std::pair<std::string, Bytes>> attachments;  ///< files that the scenario names, by name
+  std::string servo_toml;                      ///< to_toml(ServoConfig)
+  std::vector<std::string> burs_toml;          ///< burs in the order of the tray
+  Bytes tooth;                                 ///< compact tooth file before the first tick
+  std::array<std::int32_t, 3> first_tip_nm{};  ///< where the servo state starts, tooth frame
+  Notes notes;                                 ///< further facts by key (operator's seed, room …)
+  std::string
+      landmarks_json;  ///< of the tooth, where the scenario's zones follow them; empty otherwise
+  std::vector<std::pair<std::string, Bytes>>
+      attachments;  ///< files that the scenario names, by name
 
-  [[nodiscard]] Vec3 first_tip_mm() const noexcept { return {first_tip_nm[0] * 1e-6, first_tip_nm[1] * 1e-6, first_tip_nm[2] * 1e-6}; }
+  [[nodiscard]] Vec3 first_tip_mm() const noexcept {
+    return {first_tip_nm[0] * 1e-6, first_tip_nm[1] * 1e-6, first_tip_nm[2] * 1e-6};
+  }
 };
 
-/// Readings of three clocks at one moment, ns. `monotonic` stops in suspend, `boot` does not, `utc` can be set.
+/// Readings of three clocks at one moment, ns. `monotonic` stops in suspend, `boot` does not, `utc`
+/// can be set.
 struct Clocks {
   std::int64_t monotonic_ns = 0, boot_ns = 0, utc_ns = 0;
   friend bool operator==(const Clocks&, const Clocks&) = default;
@@ -52,7 +58,8 @@ struct Clocks {
 [[nodiscard]] Clocks read_clocks();
 /// Where a recording gets its clocks from: the computer's, or a test's.
 using ReadClocks = std::function<Clocks()>;
-/// Names the running boot, for `boot_ns` compares only within one; empty when the system does not tell.
+/// Names the running boot, for `boot_ns` compares only within one; empty when the system does not
+/// tell.
 [[nodiscard]] std::string boot_id();
 /// "2026-11-21T02:30:00Z"
 [[nodiscard]] std::string utc_text(std::int64_t utc_ns);

@@ -1,5 +1,5 @@
-// Reads a session file without changing a byte of it, however damaged it is. What cannot be read becomes a
-// finding in words; what can be read is there. Whether it is true is for verify.h to say.
+// Reads a session file without changing a byte of it, however damaged it is. What cannot be read
+// becomes a finding in words; what can be read is there. Whether it is true is for verify.h to say.
 #pragma once
 
 #include <map>
@@ -15,7 +15,8 @@ namespace cavum {
 
 class Database;
 
-/// The most leaves that a recording says were removed: 1000 mm3 at a leaf of 0.05 mm have 8 million, each removed once.
+/// The most leaves that a recording says were removed: 1000 mm3 at a leaf of 0.05 mm have 8
+/// million, each removed once.
 inline constexpr std::size_t k_max_removed_leaves = 16'000'000;
 
 /// A leaf and the tick in which it was removed.
@@ -26,16 +27,19 @@ struct RemovedAt {
 
 class SessionReader {
  public:
-  /// Reads a closed session, one that was killed (its log beside it), or one being recorded. Throws Error only
-  /// when the file cannot be a session at all: missing, not SQLite, or another program's database.
+  /// Reads a closed session, one that was killed (its log beside it), or one being recorded. Throws
+  /// Error only when the file cannot be a session at all: missing, not SQLite, or another program's
+  /// database.
   explicit SessionReader(const std::string& path);
-  /// The same from a file's bytes, which have no log beside them; `name` stands for the file in errors.
+  /// The same from a file's bytes, which have no log beside them; `name` stands for the file in
+  /// errors.
   SessionReader(Bytes file, const std::string& name);
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   /// Damage found while reading, each naming its table and row; empty for a sound file.
   [[nodiscard]] const Damages& findings() const noexcept { return findings_; }
-  /// Throws Error with the first finding, or of another physics, for callers that can do nothing with such a session.
+  /// Throws Error with the first finding, or of another physics, for callers that can do nothing
+  /// with such a session.
   void require_readable() const;
 
   [[nodiscard]] bool closed() const noexcept { return seal_.has_value(); }
@@ -59,12 +63,15 @@ class SessionReader {
   [[nodiscard]] const std::vector<ChunkRow>& chunks() const noexcept { return chunks_; }
   [[nodiscard]] const std::vector<EventRow>& event_rows() const noexcept { return events_; }
   /// Ticks recorded, from the numbers of the last chunk.
-  [[nodiscard]] std::int64_t ticks() const noexcept { return chunks_.empty() ? 0 : chunks_.back().first_tick + chunks_.back().ticks; }
+  [[nodiscard]] std::int64_t ticks() const noexcept {
+    return chunks_.empty() ? 0 : chunks_.back().first_tick + chunks_.back().ticks;
+  }
   [[nodiscard]] std::vector<TimedEvent> events() const { return {events_.begin(), events_.end()}; }
 
   /// Motion of chunks()[index]. Throws Error(path: chunk N, …) when it does not unpack.
   [[nodiscard]] ChunkMotion motion(std::size_t index) const;
-  /// The whole exam, tick by tick (about 90 bytes each). Throw Error when any chunk does not unpack.
+  /// The whole exam, tick by tick (about 90 bytes each). Throw Error when any chunk does not
+  /// unpack.
   [[nodiscard]] std::vector<TickInput> inputs() const;
   [[nodiscard]] std::vector<TickRecord> records() const;
   [[nodiscard]] std::vector<RemovedAt> removed() const;

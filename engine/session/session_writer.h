@@ -1,5 +1,6 @@
-// The other end of the servo's stream: a thread that takes every tick, lets the exam's runner see it, and
-// records it. What went wrong in the servo becomes events here: overruns, gaps, faults, the reason of the end.
+// The other end of the servo's stream: a thread that takes every tick, lets the exam's runner see
+// it, and records it. What went wrong in the servo becomes events here: overruns, gaps, faults, the
+// reason of the end.
 #pragma once
 
 #include <atomic>
@@ -18,15 +19,16 @@ namespace cavum {
 struct WriterReport {
   std::int64_t ticks = 0;         ///< taken from the stream
   std::int64_t most_waiting = 0;  ///< ticks that were waiting at the worst moment
-  Message error;                  ///< first error of recorder or watch; empty = everything is on disk
-  DiskRefusal refusal;            ///< where it was the disk's
+  Message error;        ///< first error of recorder or watch; empty = everything is on disk
+  DiskRefusal refusal;  ///< where it was the disk's
 };
 
-/// Events it writes: Overruns and ServoGap each second, StylusSilent and StylusBack, PedalLost and PedalBack, ServoStopped.
+/// Events it writes: Overruns and ServoGap each second, StylusSilent and StylusBack, PedalLost and
+/// PedalBack, ServoStopped.
 class SessionWriter {
  public:
-  /// Sees every tick on the writer's thread before it is recorded; may add events to the recorder. Returns whether the writer shall
-  /// record the tick: an exam does so itself.
+  /// Sees every tick on the writer's thread before it is recorded; may add events to the recorder.
+  /// Returns whether the writer shall record the tick: an exam does so itself.
   using Watch = std::function<bool(const ServoTick& tick, std::span<const RemovedLeaf> removed)>;
 
   /// Stream and recorder must outlive it; the recorder belongs to its thread until `finish`.
@@ -37,7 +39,8 @@ class SessionWriter {
   SessionWriter& operator=(const SessionWriter&) = delete;
 
   void start();
-  /// Waits until the stream is closed and everything in it is written. The session stays open: close it, or resume later.
+  /// Waits until the stream is closed and everything in it is written. The session stays open:
+  /// close it, or resume later.
   const WriterReport& finish();
 
  private:

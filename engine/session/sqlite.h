@@ -1,5 +1,6 @@
-// The little of SQLite that a session needs: a connection that writes safely, a connection on bytes in
-// memory that can change nothing, and statements whose columns must have the type the schema promises.
+// The little of SQLite that a session needs: a connection that writes safely, a connection on bytes
+// in memory that can change nothing, and statements whose columns must have the type the schema
+// promises.
 #pragma once
 
 #include <fmt/core.h>
@@ -22,7 +23,8 @@ namespace cavum {
 /// SQLite, or the disk below it, said no.
 class DatabaseError : public Error {
  public:
-  DatabaseError(const std::string& where, Message what_happened, Message what_to_do, DiskRefusal refusal)
+  DatabaseError(const std::string& where, Message what_happened, Message what_to_do,
+                DiskRefusal refusal)
       : Error(Name{where}, std::move(what_happened), std::move(what_to_do)), refusal_(refusal) {}
   /// A file of a database that the system refused before SQLite saw it.
   DatabaseError(const Error& error, DiskFault fault) : Error(error), refusal_{fault} {}
@@ -75,10 +77,12 @@ inline constexpr std::chrono::milliseconds k_long_wait{30'000};
 
 class Database {
  public:
-  /// An existing or (`make`) new file, for writing; a new one is its user's alone (mode 0600, and so its logs), and Error when there is something at
-  /// the path already. While another program holds it this waits and tries again, for as long as `wait`; then it says who that is, if it can be
-  /// known.
-  [[nodiscard]] static Database open(const std::string& path, bool make, std::chrono::milliseconds wait = k_short_wait);
+  /// An existing or (`make`) new file, for writing; a new one is its user's alone (mode 0600, and
+  /// so its logs), and Error when there is something at the path already. While another program
+  /// holds it this waits and tries again, for as long as `wait`; then it says who that is, if it
+  /// can be known.
+  [[nodiscard]] static Database open(const std::string& path, bool make,
+                                     std::chrono::milliseconds wait = k_short_wait);
   /// A whole database file held in memory, read-only. Damage shows as DatabaseError while reading.
   [[nodiscard]] static Database from_image(Bytes image, const std::string& where);
 
@@ -87,8 +91,11 @@ class Database {
   /// First column of the first row.
   [[nodiscard]] std::int64_t integer(const char* sql);
   [[nodiscard]] std::string text(const char* sql);
-  [[nodiscard]] bool in_transaction() const noexcept { return sqlite3_get_autocommit(db_.get()) == 0; }
-  /// The whole database, a log's content included, page by page into an empty one. Throws DatabaseError of whichever refuses.
+  [[nodiscard]] bool in_transaction() const noexcept {
+    return sqlite3_get_autocommit(db_.get()) == 0;
+  }
+  /// The whole database, a log's content included, page by page into an empty one. Throws
+  /// DatabaseError of whichever refuses.
   void copy_to(Database& other);
   /// The same as the bytes of a single file.
   [[nodiscard]] Bytes image();
@@ -110,7 +117,9 @@ class Database {
 /// Begins a transaction, and leaves it again unless it was committed.
 class Transaction {
  public:
-  explicit Transaction(Database& database) : database_(database) { database_.run("BEGIN IMMEDIATE"); }
+  explicit Transaction(Database& database) : database_(database) {
+    database_.run("BEGIN IMMEDIATE");
+  }
   ~Transaction() {
     try {
       if (database_.in_transaction()) database_.run("ROLLBACK");

@@ -17,7 +17,8 @@ Damages check_stations(const SessionReader& session) {
       findings.push_back(damage<DamageKind::resumed_unremembered>(e.tick));
   }
   if (session.seal() && to_hex(session.seal()->public_key) != begun)
-    findings.push_back(damage<DamageKind::station_changed>(to_hex(session.seal()->public_key), begun));
+    findings.push_back(
+        damage<DamageKind::station_changed>(to_hex(session.seal()->public_key), begun));
   return findings;
 }
 

@@ -16,7 +16,9 @@ constexpr std::array<std::array<int, 4>, 6> k_faces = [] {
 
 int edge_between(int a, int b) {
   for (std::size_t e = 0; e < k_cube_edges.size(); ++e)
-    if (k_cube_edges[e].low_corner == (a < b ? a : b) && k_cube_edges[e].high_corner() == (a < b ? b : a)) return static_cast<int>(e);
+    if (k_cube_edges[e].low_corner == (a < b ? a : b) &&
+        k_cube_edges[e].high_corner() == (a < b ? b : a))
+      return static_cast<int>(e);
   return -1;
 }
 
@@ -42,7 +44,9 @@ struct Outline {
 /// Is a fan from corner `first` of the outline free of sides that lie in a face?
 bool fan_is_sound(const Outline& outline, int first) {
   for (int i = 2; i + 1 < outline.count; ++i)
-    if (in_one_face(outline.edge[static_cast<std::size_t>(first)], outline.edge[static_cast<std::size_t>((first + i) % outline.count)])) return false;
+    if (in_one_face(outline.edge[static_cast<std::size_t>(first)],
+                    outline.edge[static_cast<std::size_t>((first + i) % outline.count)]))
+      return false;
   return true;
 }
 
@@ -56,7 +60,8 @@ CubeCase work_out(unsigned inside) {
       if (!is_in(i) || is_in(i + 1)) continue;
       std::size_t began = i + 4;
       while (is_in(began - 1)) --began;
-      next[static_cast<std::size_t>(edge_between(face[(began - 1) % 4], face[began % 4]))] = edge_between(face[i], face[(i + 1) % 4]);
+      next[static_cast<std::size_t>(edge_between(face[(began - 1) % 4], face[began % 4]))] =
+          edge_between(face[i], face[(i + 1) % 4]);
     }
   CubeCase made;
   for (std::size_t start = 0; start < 12; ++start) {

@@ -1,6 +1,7 @@
-// How a surface passes through a cube whose eight corners are inside or outside: the 256 cases of marching cubes, worked out from
-// the faces. Inside corners that touch only across a face's diagonal are kept apart, seen alike from both cubes at that face, and no
-// triangle has an inner side in a face: so the surface of any set of corners is a closed 2-manifold.
+// How a surface passes through a cube whose eight corners are inside or outside: the 256 cases of
+// marching cubes, worked out from the faces. Inside corners that touch only across a face's
+// diagonal are kept apart, seen alike from both cubes at that face, and no triangle has an inner
+// side in a face: so the surface of any set of corners is a closed 2-manifold.
 #pragma once
 
 #include <array>
@@ -21,8 +22,18 @@ struct CubeCase {
   std::array<std::uint8_t, 3 * k_max_triangles> edge{};
 };
 
-inline constexpr std::array<CubeEdge, 12> k_cube_edges{
-    {{0, 0}, {0, 2}, {0, 4}, {0, 6}, {1, 0}, {1, 1}, {1, 4}, {1, 5}, {2, 0}, {2, 1}, {2, 2}, {2, 3}}};
+inline constexpr std::array<CubeEdge, 12> k_cube_edges{{{0, 0},
+                                                        {0, 2},
+                                                        {0, 4},
+                                                        {0, 6},
+                                                        {1, 0},
+                                                        {1, 1},
+                                                        {1, 4},
+                                                        {1, 5},
+                                                        {2, 0},
+                                                        {2, 1},
+                                                        {2, 2},
+                                                        {2, 3}}};
 /// By the bits of the corners that are inside. Worked out in the first call.
 [[nodiscard]] const std::array<CubeCase, 256>& cube_cases();
 

@@ -9,7 +9,8 @@ namespace {
 
 constexpr int k_reach_leaves = 3;  // further than any code of a distance tells
 
-constexpr std::array<IVec3, 6> k_beside{IVec3{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+constexpr std::array<IVec3, 6> k_beside{IVec3{1, 0, 0}, {-1, 0, 0}, {0, 1, 0},
+                                        {0, -1, 0},     {0, 0, 1},  {0, 0, -1}};
 
 template <class Visit>
 void each_leaf(const TissueGrid& grid, const Visit& visit) {
@@ -27,14 +28,18 @@ void around(const TissueGrid& grid, IVec3 at, const Visit& visit) {
         if (const IVec3 leaf = at + IVec3{x, y, z}; grid.inside(leaf)) visit(leaf, IVec3{x, y, z});
 }
 
-/// To the nearest leaf of the other kind (solid or not), less half a leaf; with the sign of `solid`.
+/// To the nearest leaf of the other kind (solid or not), less half a leaf; with the sign of
+/// `solid`.
 double leaves_to_surface(const TissueGrid& grid, const std::array<bool, 256>& is_solid, IVec3 at) {
   const bool solid = is_solid[grid.tissue[grid.index(at)]];
   int nearest = std::numeric_limits<int>::max();
   around(grid, at, [&](IVec3 leaf, IVec3 off) {
-    if (is_solid[grid.tissue[grid.index(leaf)]] != solid) nearest = std::min(nearest, off.x * off.x + off.y * off.y + off.z * off.z);
+    if (is_solid[grid.tissue[grid.index(leaf)]] != solid)
+      nearest = std::min(nearest, off.x * off.x + off.y * off.y + off.z * off.z);
   });
-  const double leaves = nearest == std::numeric_limits<int>::max() ? k_reach_leaves : std::sqrt(static_cast<double>(nearest)) - 0.5;
+  const double leaves = nearest == std::numeric_limits<int>::max()
+                            ? k_reach_leaves
+                            : std::sqrt(static_cast<double>(nearest)) - 0.5;
   return solid ? -leaves : leaves;
 }
 
@@ -54,7 +59,8 @@ Tooth filled_tooth(const Tooth& tooth, const std::array<bool, 256>& tissues) {
         return;
       }
   });
-  constexpr std::uint8_t k_filled = 1, k_near = 2;  // one byte a leaf for both: a large tooth has 30 million
+  constexpr std::uint8_t k_filled = 1,
+                         k_near = 2;  // one byte a leaf for both: a large tooth has 30 million
   std::vector<std::uint8_t> marks(grid.count(), 0);
   const auto is_filled = [&](IVec3 leaf) { return (marks[grid.index(leaf)] & k_filled) != 0; };
   for (std::size_t i = 0; i < reached.size(); ++i) {  // grows while it is walked
@@ -67,19 +73,23 @@ Tooth filled_tooth(const Tooth& tooth, const std::array<bool, 256>& tissues) {
       }
     marks[grid.index(leaf)] = k_filled;
     for (const IVec3 step : k_beside)
-      if (const IVec3 next = leaf + step;
-          grid.inside(next) && !is_filled(next) && tissues[grid.tissue[grid.index(next)]] && !solid[grid.tissue[grid.index(next)]])
+      if (const IVec3 next = leaf + step; grid.inside(next) && !is_filled(next) &&
+                                          tissues[grid.tissue[grid.index(next)]] &&
+                                          !solid[grid.tissue[grid.index(next)]])
         reached.push_back(next);
   }
   each_leaf(grid, [&](IVec3 leaf) {
     if (!is_filled(leaf)) return;
-    bool inner = true;  // all leaves beside it were filled, too, so that those beside them see to the rest
-    for (const IVec3 step : k_beside) inner = inner && grid.inside(leaf + step) && is_filled(leaf + step);
+    bool inner =
+        true;  // all leaves beside it were filled, too, so that those beside them see to the rest
+    for (const IVec3 step : k_beside)
+      inner = inner && grid.inside(leaf + step) && is_filled(leaf + step);
     marks[grid.index(leaf)] |= k_near;
     if (!inner) around(grid, leaf, [&](IVec3 other, IVec3) { marks[grid.index(other)] |= k_near; });
   });
   each_leaf(grid, [&](IVec3 leaf) {
-    if ((marks[grid.index(leaf)] & k_near) != 0) grid.distance[grid.index(leaf)] = encode_distance(leaves_to_surface(grid, solid, leaf));
+    if ((marks[grid.index(leaf)] & k_near) != 0)
+      grid.distance[grid.index(leaf)] = encode_distance(leaves_to_surface(grid, solid, leaf));
   });
   grid.make_consistent(tooth.tissues);
   Tooth out{tooth, Octree(grid, tooth.tissues), tooth.tissues};

@@ -1,4 +1,5 @@
-// Carving the octree by a shape, and visiting its cubes: the templates that octree.h declares. Who carves or visits includes this.
+// Carving the octree by a shape, and visiting its cubes: the templates that octree.h declares. Who
+// carves or visits includes this.
 #pragma once
 
 #include <algorithm>
@@ -16,14 +17,16 @@ struct Octree::Planning {
   Plan& plan;
 };
 
-/// A shape that turns a brick into its own frame once, and then knows the distances at eight of its leaves at once, in single precision.
+/// A shape that turns a brick into its own frame once, and then knows the distances at eight of its
+/// leaves at once, in single precision.
 template <class Shape>
 concept KnowsBricks = requires(const Shape& shape, float* out) {
   shape.brick(Vec3{}).of_blocks(out);
   shape.brick(Vec3{}).of_leaves(0, out);
 };
 
-/// A shape that can tell for a ball, or a block of a brick, whether an earlier carve did all of it already.
+/// A shape that can tell for a ball, or a block of a brick, whether an earlier carve did all of it
+/// already.
 template <class Shape>
 concept KnowsUnchanged = requires(const Shape& shape) {
   shape.unchanged(Vec3{}, 1.0);
@@ -45,7 +48,10 @@ struct PlainBrick {
 
  private:
   void corners(Vec3 first, double apart, double* out) const noexcept {
-    for (int i = 0; i < 8; ++i) out[i] = shape(low_mm + (first + Vec3{double(i & 1), double(i >> 1 & 1), double(i >> 2)} * apart) * leaf_mm);
+    for (int i = 0; i < 8; ++i)
+      out[i] =
+          shape(low_mm + (first + Vec3{double(i & 1), double(i >> 1 & 1), double(i >> 2)} * apart) *
+                             leaf_mm);
   }
 };
 template <class Shape>
@@ -68,12 +74,14 @@ struct FourOf<double> {
   using type = double __attribute__((vector_size(32)));
 };
 
-/// Eight distances, mm, and what they are as codes: in vector types, of which every compiler and machine makes the same.
+/// Eight distances, mm, and what they are as codes: in vector types, of which every compiler and
+/// machine makes the same.
 template <class Real>
 struct EightDistances {
   alignas(16) Real mm[8];
   /// `encode_distance` of `clearance_mm - mm`, and -1 for each that is negative, else 0.
-  void encode(Real clearance_mm, Real codes_per_mm, std::int16_t* code, std::int16_t* inside) const noexcept {
+  void encode(Real clearance_mm, Real codes_per_mm, std::int16_t* code,
+              std::int16_t* inside) const noexcept {
     using Four = typename FourOf<Real>::type;
     using FourWhole = std::int32_t __attribute__((vector_size(16)));
     using FourCodes = std::int16_t __attribute__((vector_size(8)));
@@ -84,8 +92,10 @@ struct EightDistances {
       Four at = (clearance_mm - d) * codes_per_mm;
       at = at < -k_far ? Four{} - k_far : at;
       at = at > k_far ? Four{} + k_far : at;
-      const FourWhole whole = __builtin_convertvector(at + (k_far + Real{0.5}), FourWhole) - k_distance_far;
-      const auto codes = __builtin_convertvector(whole, FourCodes), negative = __builtin_convertvector(d < Real{0}, FourCodes);
+      const FourWhole whole =
+          __builtin_convertvector(at + (k_far + Real{0.5}), FourWhole) - k_distance_far;
+      const auto codes = __builtin_convertvector(whole, FourCodes),
+                 negative = __builtin_convertvector(d < Real{0}, FourCodes);
       std::memcpy(code + first, &codes, sizeof codes);
       std::memcpy(inside + first, &negative, sizeof negative);
     }
@@ -96,7 +106,8 @@ template <class Shape>
 using BlockDistances = EightDistances<std::conditional_t<KnowsBricks<Shape>, float, double>>;
 
 template <class Shape>
-bool Octree::carve(Vec3 low_mm, Vec3 high_mm, const Shape& shape, std::vector<RemovedLeaf>& removed, double clearance_mm) {
+bool Octree::carve(Vec3 low_mm, Vec3 high_mm, const Shape& shape, std::vector<RemovedLeaf>& removed,
+                   double clearance_mm) {
   Plan steps;
   for (bool all = false; !all;) {
     all = plan(low_mm, high_mm, shape, clearance_mm, std::numeric_limits<int>::max(), steps);
@@ -106,8 +117,14 @@ bool Octree::carve(Vec3 low_mm, Vec3 high_mm, const Shape& shape, std::vector<Re
 }
 
 template <class Shape>
-bool Octree::plan(Vec3 low_mm, Vec3 high_mm, const Shape& shape, double clearance_mm, int work, Plan& plan) const noexcept {
-  Planning planning{clamp_to_tree(low_mm), clamp_to_tree(high_mm), clearance_mm, k_distance_band_leaves * leaf_mm_ + clearance_mm, work, plan};
+bool Octree::plan(Vec3 low_mm, Vec3 high_mm, const Shape& shape, double clearance_mm, int work,
+                  Plan& plan) const noexcept {
+  Planning planning{clamp_to_tree(low_mm),
+                    clamp_to_tree(high_mm),
+                    clearance_mm,
+                    k_distance_band_leaves * leaf_mm_ + clearance_mm,
+                    work,
+                    plan};
   plan_in(root_, levels_, {0, 0, 0}, 0, shape, planning);
   if (planning.work <= 0 || plan.full()) return false;
   plan.next_ = 0;
@@ -115,13 +132,16 @@ bool Octree::plan(Vec3 low_mm, Vec3 high_mm, const Shape& shape, double clearanc
 }
 
 template <class Shape>
-void Octree::plan_in(std::uint32_t ref, int level, IVec3 low, std::uint32_t place, const Shape& shape, Planning& planning) const noexcept {
+void Octree::plan_in(std::uint32_t ref, int level, IVec3 low, std::uint32_t place,
+                     const Shape& shape, Planning& planning) const noexcept {
   if (planning.work <= 0 || planning.plan.full() || ref == (k_uniform | k_air)) return;
   const std::uint32_t end = place + (1u << 3 * level);
   if (end <= planning.plan.next_) return;  // planned in an earlier part
   const int edge = k_brick_edge << level;
   if (low.x > planning.high.x || low.y > planning.high.y || low.z > planning.high.z) return;
-  if (low.x + edge <= planning.low.x || low.y + edge <= planning.low.y || low.z + edge <= planning.low.z) return;
+  if (low.x + edge <= planning.low.x || low.y + edge <= planning.low.y ||
+      low.z + edge <= planning.low.z)
+    return;
   // The shape's distance changes by at most 1 mm per mm: the centre speaks for the whole cube.
   const double half_mm = 0.5 * edge * leaf_mm_;
   const Vec3 middle = origin_mm_ + to_vec3(low) * leaf_mm_ + Vec3{half_mm, half_mm, half_mm};
@@ -132,8 +152,8 @@ void Octree::plan_in(std::uint32_t ref, int level, IVec3 low, std::uint32_t plac
     if (shape.unchanged(middle, radius_mm)) return;
   if (level > 0) {
     for (std::uint32_t i = 0; i < 8; ++i)
-      plan_in((ref & k_kind) == k_node ? nodes_.items[ref & k_index].child[i] : ref, level - 1, low_of_child(low, i, edge / 2),
-              place + (i << 3 * (level - 1)), shape, planning);
+      plan_in((ref & k_kind) == k_node ? nodes_.items[ref & k_index].child[i] : ref, level - 1,
+              low_of_child(low, i, edge / 2), place + (i << 3 * (level - 1)), shape, planning);
     return;
   }
   planning.plan.next_ = end;
@@ -143,9 +163,11 @@ void Octree::plan_in(std::uint32_t ref, int level, IVec3 low, std::uint32_t plac
   const auto in_shape = brick_of(shape, origin_mm_ + to_vec3(low) * leaf_mm_, leaf_mm_);
   BlockDistances<Shape> blocks;
   in_shape.of_blocks(blocks.mm);
-  const auto far_mm = static_cast<std::remove_cvref_t<decltype(blocks.mm[0])>>(0.5 * leaf_mm_ * k_half_diagonal + planning.band_mm);
+  const auto far_mm = static_cast<std::remove_cvref_t<decltype(blocks.mm[0])>>(
+      0.5 * leaf_mm_ * k_half_diagonal + planning.band_mm);
   unsigned near = 0;
-  for (unsigned block = 0; block < 8; ++block) near |= (blocks.mm[block] > far_mm ? 0u : 1u) << block;
+  for (unsigned block = 0; block < 8; ++block)
+    near |= (blocks.mm[block] > far_mm ? 0u : 1u) << block;
   if (near == 0) return;
   auto& bricks = planning.plan.bricks_;
   bricks.emplace_back();
@@ -156,12 +178,14 @@ void Octree::plan_in(std::uint32_t ref, int level, IVec3 low, std::uint32_t plac
 
 /// Cuts the blocks `near` (as bits) of a copy of a brick; false when nothing changed.
 template <class Shape, class Brick>
-bool Octree::cut_brick(const Brick& in_shape, unsigned near, Planning& planning, FullBrick& brick) const noexcept {
+bool Octree::cut_brick(const Brick& in_shape, unsigned near, Planning& planning,
+                       FullBrick& brick) const noexcept {
   BlockDistances<Shape> leaves;
   using Real = std::remove_cvref_t<decltype(leaves.mm[0])>;
   const auto codes_per_mm = static_cast<Real>(k_distance_far / (k_distance_band_leaves * leaf_mm_)),
              clearance_mm = static_cast<Real>(planning.clearance_mm);
-  const auto solid_most = static_cast<std::int16_t>(planning.clearance_mm > 0.0 ? encode_distance(planning.clearance_mm / leaf_mm_) : -1);
+  const auto solid_most = static_cast<std::int16_t>(
+      planning.clearance_mm > 0.0 ? encode_distance(planning.clearance_mm / leaf_mm_) : -1);
   bool changed = false;
   constexpr int k_block_work = 5;
   for (; near != 0; near &= near - 1) {

@@ -4,10 +4,12 @@
 //   u64 size, range coded bits           of that size, see engine/base/range_coder.h
 //   u64                                  fast_hash of the canonical bytes, seed 0
 // The bits are, in this order, each in a context of its own (the functions below say which):
-//   cells       from the root, children x fastest: uniform or not; a uniform cell's tissue; at brick level, full or not
-//   labels      brick after brick: is it this of the tissues around, or the next one? If none of them, the byte
-//   distances   in seven layers by the nearest leaf of the other kind (solid or not), so that the surface itself comes first and is
-//               known on both sides when the leaves farther off follow: code minus what `fit_surface` expects
+//   cells       from the root, children x fastest: uniform or not; a uniform cell's tissue; at
+//   brick level, full or not labels      brick after brick: is it this of the tissues around, or
+//   the next one? If none of them, the byte distances   in seven layers by the nearest leaf of the
+//   other kind (solid or not), so that the surface itself comes first and is
+//               known on both sides when the leaves farther off follow: code minus what
+//               `fit_surface` expects
 #include "engine/tooth/packed_octree.h"
 
 #include <algorithm>
@@ -29,7 +31,8 @@ namespace {
 
 constexpr std::size_t k_leaves = Octree::k_brick_leaves;
 constexpr std::size_t k_head_bytes = 4 * sizeof(double) + 3 * sizeof(std::int32_t);
-constexpr std::uint32_t k_max_bricks = 1u << 18;  // 15 us each, 4 s in all: six molars at a leaf of 0.05 mm; a few bytes can code them all
+constexpr std::uint32_t k_max_bricks = 1u << 18;  // 15 us each, 4 s in all: six molars at a leaf of
+                                                  // 0.05 mm; a few bytes can code them all
 
 /// The three streams of Octree::write, with distance codes instead of their differences.
 struct Streams {
@@ -44,8 +47,9 @@ constexpr std::uint32_t k_no_full = PackedFits::k_no_full;
 template <class Coder>
 class Walk {
  public:
-  Walk(Coder& coder, Streams& streams, const std::vector<Tissue>& tissues, int levels, std::uint32_t bricks, std::uint32_t full,
-       const PackedFits* like = nullptr, KnownFits* keep = nullptr)
+  Walk(Coder& coder, Streams& streams, const std::vector<Tissue>& tissues, int levels,
+       std::uint32_t bricks, std::uint32_t full, const PackedFits* like = nullptr,
+       KnownFits* keep = nullptr)
       : coder_(coder), streams_(streams), lattice_(levels), most_bricks_(bricks), most_full_(full) {
     for (const auto& t : tissues) solid_[t.id] = t.solid;
     code_cell({0, 0, 0}, levels);
@@ -64,7 +68,8 @@ class Walk {
         if (layers_[i][layer] != 0) code_distances(i, layer);
     if (keep != nullptr)
       *keep = std::make_shared<const PackedFits>(
-          PackedFits{solid_, std::move(lattice_), std::move(brick_), streams_.tissue, streams_.distance, std::move(expected_), std::move(layers_)});
+          PackedFits{solid_, std::move(lattice_), std::move(brick_), streams_.tissue,
+                     streams_.distance, std::move(expected_), std::move(layers_)});
   }
 
  private:
@@ -72,40 +77,50 @@ class Walk {
   using LabelWindow = std::array<std::uint16_t, 512>;
 
   [[noreturn]] static void throw_damaged() {
-    throw Error(msg("tooth"), msg("the packed octree does not fit its header"), msg("the file is damaged: use an intact copy"));
+    throw Error(msg("tooth"), msg("the packed octree does not fit its header"),
+                msg("the file is damaged: use an intact copy"));
   }
 
   // --- cells
 
   void code_cell(IVec3 low, int level) {
     std::uint8_t kind = Coder::k_decodes ? std::uint8_t{0} : streams_.shape[at_++];
-    // Bricks known already: those that touch the cell's lower faces at their nearest and farthest corner, and its lower edges.
+    // Bricks known already: those that touch the cell's lower faces at their nearest and farthest
+    // corner, and its lower edges.
     const int far = (1 << level) - 1;
-    const std::array<IVec3, 9> step{IVec3{-1, 0, 0},     IVec3{0, -1, 0},  IVec3{0, 0, -1},  IVec3{-1, far, far}, IVec3{far, -1, far},
-                                    IVec3{far, far, -1}, IVec3{-1, -1, 0}, IVec3{-1, 0, -1}, IVec3{0, -1, -1}};
+    const std::array<IVec3, 9> step{IVec3{-1, 0, 0},     IVec3{0, -1, 0},     IVec3{0, 0, -1},
+                                    IVec3{-1, far, far}, IVec3{far, -1, far}, IVec3{far, far, -1},
+                                    IVec3{-1, -1, 0},    IVec3{-1, 0, -1},    IVec3{0, -1, -1}};
     std::array<std::uint32_t, 9> around;
     std::size_t uniform_around = 0, full_around = 0;
     for (std::size_t i = 0; i < around.size(); ++i) {
       around[i] = lattice_[low + step[i]];
       uniform_around = 2 * uniform_around + (around[i] < BrickLattice::k_unknown);
-      full_around = 2 * full_around + (around[i] >= BrickLattice::k_first_brick && brick_[around[i] - BrickLattice::k_first_brick].full != k_no_full);
+      full_around =
+          2 * full_around + (around[i] >= BrickLattice::k_first_brick &&
+                             brick_[around[i] - BrickLattice::k_first_brick].full != k_no_full);
     }
-    const bool uniform = coder_.code(uniform_[static_cast<std::size_t>(level)][uniform_around], kind == 0);
+    const bool uniform =
+        coder_.code(uniform_[static_cast<std::size_t>(level)][uniform_around], kind == 0);
     if (uniform) {
       emit(0);
       std::uint8_t tissue = Coder::k_decodes ? std::uint8_t{0} : streams_.shape[at_++];
-      tissue = code_tissue(around, cell_tissue_, tissue, [level](std::size_t) { return static_cast<std::size_t>(level); });
+      tissue = code_tissue(around, cell_tissue_, tissue,
+                           [level](std::size_t) { return static_cast<std::size_t>(level); });
       emit(tissue);
       lattice_.fill(low, level, tissue);
     } else if (level > 0) {
       emit(1);
       const int half = 1 << (level - 1);
-      for (int i = 0; i < 8; ++i) code_cell(low + IVec3{(i & 1) * half, (i >> 1 & 1) * half, (i >> 2) * half}, level - 1);
+      for (int i = 0; i < 8; ++i)
+        code_cell(low + IVec3{(i & 1) * half, (i >> 1 & 1) * half, (i >> 2) * half}, level - 1);
     } else {
       const bool full = coder_.code(full_[full_around], kind == 3);
       emit(full ? 3 : 2);
-      if (brick_.size() == most_bricks_ || (full && full_brick_.size() == most_full_)) throw_damaged();
-      lattice_.fill(low, 0, BrickLattice::k_first_brick + static_cast<std::uint32_t>(brick_.size()));
+      if (brick_.size() == most_bricks_ || (full && full_brick_.size() == most_full_))
+        throw_damaged();
+      lattice_.fill(low, 0,
+                    BrickLattice::k_first_brick + static_cast<std::uint32_t>(brick_.size()));
       brick_.push_back({low, full ? static_cast<std::uint32_t>(full_brick_.size()) : k_no_full});
       if (full) full_brick_.push_back(static_cast<std::uint32_t>(brick_.size() - 1));
     }
@@ -117,14 +132,17 @@ class Walk {
 
   // --- labels
 
-  /// A tissue by asking "is it this one?" for up to three that occur in `around` (tissues 0..255; other values are no tissue).
-  /// `context(n)` chooses among the models of question n, and may look at `candidate_`.
+  /// A tissue by asking "is it this one?" for up to three that occur in `around` (tissues 0..255;
+  /// other values are no tissue). `context(n)` chooses among the models of question n, and may look
+  /// at `candidate_`.
   template <class Around, class Models, class Context>
-  std::uint8_t code_tissue(const Around& around, Models& models, std::uint8_t tissue, const Context& context) {
+  std::uint8_t code_tissue(const Around& around, Models& models, std::uint8_t tissue,
+                           const Context& context) {
     std::array<std::uint32_t, 3> asked;
     std::size_t n = 0;
     for (const std::uint32_t t : around) {
-      if (t > 255 || std::find(asked.begin(), asked.begin() + static_cast<std::ptrdiff_t>(n), t) != asked.begin() + static_cast<std::ptrdiff_t>(n))
+      if (t > 255 || std::find(asked.begin(), asked.begin() + static_cast<std::ptrdiff_t>(n), t) !=
+                         asked.begin() + static_cast<std::ptrdiff_t>(n))
         continue;
       candidate_ = t;
       if (coder_.code(models[n][context(n)], tissue == t)) return static_cast<std::uint8_t>(t);
@@ -139,11 +157,14 @@ class Walk {
     lattice_.gather(
         brick, window,
         [&](std::uint32_t ref) {
-          return ref >= BrickLattice::k_first_brick && ref - BrickLattice::k_first_brick < known_bricks
+          return ref >= BrickLattice::k_first_brick &&
+                         ref - BrickLattice::k_first_brick < known_bricks
                      ? &streams_.tissue[(ref - BrickLattice::k_first_brick) * k_leaves]
                      : nullptr;
         },
-        [](std::uint32_t ref) { return static_cast<std::uint16_t>(std::min<std::uint32_t>(ref, k_not_yet)); });
+        [](std::uint32_t ref) {
+          return static_cast<std::uint16_t>(std::min<std::uint32_t>(ref, k_not_yet));
+        });
     return window;
   }
 
@@ -153,20 +174,26 @@ class Walk {
   }
 
   void code_labels(std::size_t number) {
-    // Leaves coded before this one, the nearest first, and three that may be known when they lie in uniform cells.
-    constexpr std::array<int, 16> k_step{window_step(-1, 0, 0),  window_step(0, -1, 0),   window_step(0, 0, -1), window_step(-1, -1, 0),
-                                         window_step(-1, 0, -1), window_step(0, -1, -1),  window_step(1, -1, 0), window_step(1, 0, -1),
-                                         window_step(0, 1, -1),  window_step(-1, -1, -1), window_step(-2, 0, 0), window_step(0, -2, 0),
-                                         window_step(0, 0, -2),  window_step(1, 0, 0),    window_step(0, 1, 0),  window_step(0, 0, 1)};
+    // Leaves coded before this one, the nearest first, and three that may be known when they lie in
+    // uniform cells.
+    constexpr std::array<int, 16> k_step{
+        window_step(-1, 0, 0),   window_step(0, -1, 0),  window_step(0, 0, -1),
+        window_step(-1, -1, 0),  window_step(-1, 0, -1), window_step(0, -1, -1),
+        window_step(1, -1, 0),   window_step(1, 0, -1),  window_step(0, 1, -1),
+        window_step(-1, -1, -1), window_step(-2, 0, 0),  window_step(0, -2, 0),
+        window_step(0, 0, -2),   window_step(1, 0, 0),   window_step(0, 1, 0),
+        window_step(0, 0, 1)};
     LabelWindow window = labels_around(brick_[number].at, number);
     std::uint8_t* const labels = &streams_.tissue[number * k_leaves];
     std::array<std::uint16_t, k_step.size()> around;
     for (std::size_t leaf = 0; leaf < k_leaves; ++leaf) {
       const int place = place_of(leaf);
-      for (std::size_t i = 0; i < around.size(); ++i) around[i] = window[static_cast<std::size_t>(place + k_step[i])];
+      for (std::size_t i = 0; i < around.size(); ++i)
+        around[i] = window[static_cast<std::size_t>(place + k_step[i])];
       const auto same_around = [&](std::size_t) {
         std::size_t same = 0;
-        for (std::size_t i = 0; i < k_label_context; ++i) same = 2 * same + (around[i] == candidate_);
+        for (std::size_t i = 0; i < k_label_context; ++i)
+          same = 2 * same + (around[i] == candidate_);
         return same;
       };
       labels[leaf] = code_tissue(around, label_, labels[leaf], same_around);
@@ -176,7 +203,8 @@ class Walk {
 
   // --- distances
 
-  /// Which layer each leaf of the full bricks belongs to, and a guess of the distances next to the surface.
+  /// Which layer each leaf of the full bricks belongs to, and a guess of the distances next to the
+  /// surface.
   void sort_into_layers() {
     leaf_.resize(full_brick_.size() * k_leaves);
     layers_.reserve(full_brick_.size());
@@ -186,7 +214,8 @@ class Walk {
       } else {
         const LabelWindow labels = labels_around(brick_[full_brick_[i]].at, brick_.size());
         WindowBits solid{};
-        for (std::size_t j = 0; j < labels.size(); ++j) solid[j >> 6] |= std::uint64_t{solid_[labels[j] & 255]} << (j & 63);
+        for (std::size_t j = 0; j < labels.size(); ++j)
+          solid[j >> 6] |= std::uint64_t{solid_[labels[j] & 255]} << (j & 63);
         layers_.push_back(leaf_layers(solid));
       }
       constexpr std::array<std::int8_t, 3> k_usual{28, 55, 70};
@@ -194,12 +223,15 @@ class Walk {
         for (std::uint64_t left = layers_[i][layer]; left != 0; left &= left - 1) {
           const auto leaf = static_cast<std::size_t>(std::countr_zero(left));
           const bool is_solid = solid_[streams_.tissue[full_brick_[i] * k_leaves + leaf]];
-          leaf_[i * k_leaves + leaf] = {static_cast<std::int8_t>(is_solid ? -k_usual[layer] : k_usual[layer]), FitLeaf::k_guess};
+          leaf_[i * k_leaves + leaf] = {
+              static_cast<std::int8_t>(is_solid ? -k_usual[layer] : k_usual[layer]),
+              FitLeaf::k_guess};
         }
     }
   }
 
-  /// The full brick of `like_` whose fits hold for full brick `number`, too; k_no_full when they may not.
+  /// The full brick of `like_` whose fits hold for full brick `number`, too; k_no_full when they
+  /// may not.
   [[nodiscard]] std::uint32_t known_full(std::size_t number) const noexcept {
     const IVec3 at = brick_[full_brick_[number]].at;
     return like_ == nullptr || differences_->near(at) ? k_no_full : like_->full_at(at);
@@ -224,7 +256,8 @@ class Walk {
   void code_distances(std::size_t number, std::size_t layer) {
     const std::uint32_t brick = full_brick_[number];
     const IVec3 at = brick_[brick].at;
-    const bool far = layer + 1 == k_leaf_layers;  // all distances there are, but for what a carve left behind
+    const bool far =
+        layer + 1 == k_leaf_layers;  // all distances there are, but for what a carve left behind
     const std::uint32_t before = far || like_ == nullptr ? k_no_full : like_->full_at(at);
     bool known = !far && known_full(number) != k_no_full;
     if (!far && !known) gather_window(at);
@@ -232,14 +265,18 @@ class Walk {
       const auto leaf = static_cast<std::size_t>(std::countr_zero(left));
       const std::size_t here = number * k_leaves + leaf;
       const int sign = solid_[streams_.tissue[brick * k_leaves + leaf]] ? -1 : 1;
-      Expected expected{static_cast<std::uint16_t>(k_fit_contexts), static_cast<std::int8_t>(k_distance_far)};
+      Expected expected{static_cast<std::uint16_t>(k_fit_contexts),
+                        static_cast<std::int8_t>(k_distance_far)};
       if (known)
         expected = like_->expected[before * k_leaves + leaf];
       else if (!far)
         expected = fit(window_, place_of(leaf), sign, layer == 0);
       if (!expected_.empty()) expected_[here] = expected;
-      const int off = code_residual(residual_[expected.context], sign * static_cast<std::int8_t>(streams_.distance[here]) - expected.code);
-      leaf_[here] = coded(static_cast<std::int8_t>(static_cast<std::uint8_t>(sign * (expected.code + off))), off);
+      const int off =
+          code_residual(residual_[expected.context],
+                        sign * static_cast<std::int8_t>(streams_.distance[here]) - expected.code);
+      leaf_[here] = coded(
+          static_cast<std::int8_t>(static_cast<std::uint8_t>(sign * (expected.code + off))), off);
       streams_.distance[here] = static_cast<std::uint8_t>(leaf_[here].code);
       window_.leaf[static_cast<std::size_t>(place_of(leaf))] = leaf_[here];
       if (before != k_no_full && differs(before * k_leaves + leaf, sign, leaf_[here])) {
@@ -256,18 +293,23 @@ class Walk {
     return is.code != was.code || is.error != was.error;
   }
 
-  /// The code expected (as if outside: 1..127) and the context: how the two planes differ, the errors around, near the limit or not, where
-  /// between two codes the expectation lies.
+  /// The code expected (as if outside: 1..127) and the context: how the two planes differ, the
+  /// errors around, near the limit or not, where between two codes the expectation lies.
   [[nodiscard]] static Expected fit(const FitWindow& window, int place, int sign, bool first) {
     const SurfaceFit f = fit_surface(window, place);
-    const double near = std::clamp<double>(f.near * sign, 1, k_distance_far), wide = std::clamp<double>(f.wide * sign, 1, k_distance_far);
+    const double near = std::clamp<double>(f.near * sign, 1, k_distance_far),
+                 wide = std::clamp<double>(f.wide * sign, 1, k_distance_far);
     const int expected = static_cast<int>(near + 0.5);
-    const auto part = static_cast<std::size_t>((near - expected + 0.5) * 4);                     // 0..3
-    const auto bend = static_cast<std::size_t>(std::clamp((wide - near) * 2, -6.0, 6.0) + 6.5);  // 0..12
-    const auto errors =
-        static_cast<std::size_t>(f.error_8 < 0 ? 18 : std::bit_width(static_cast<unsigned>(f.error_8 * f.error_8)));  // 0..18, two per octave
+    const auto part = static_cast<std::size_t>((near - expected + 0.5) * 4);  // 0..3
+    const auto bend =
+        static_cast<std::size_t>(std::clamp((wide - near) * 2, -6.0, 6.0) + 6.5);  // 0..12
+    const auto errors = static_cast<std::size_t>(
+        f.error_8 < 0 ? 18
+                      : std::bit_width(static_cast<unsigned>(f.error_8 *
+                                                             f.error_8)));  // 0..18, two per octave
     const std::size_t limit = expected == k_distance_far ? 2 : expected > 120 ? 1 : 0;
-    const std::size_t context = (((bend * 19 + errors) * 3 + limit) * 2 + first) * 4 + (errors < 9 ? part : 0);
+    const std::size_t context =
+        (((bend * 19 + errors) * 3 + limit) * 2 + first) * 4 + (errors < 9 ? part : 0);
     return {static_cast<std::uint16_t>(context), static_cast<std::int8_t>(expected)};
   }
   static constexpr std::size_t k_fit_contexts = std::size_t{13} * 19 * 3 * 2 * 4;
@@ -309,7 +351,8 @@ class Walk {
   std::array<std::array<AdaptiveBit, 512>, 9> uniform_;
   std::array<AdaptiveBit, 512> full_;
   std::array<std::array<AdaptiveBit, 9>, 3> cell_tissue_;
-  std::vector<std::vector<AdaptiveBit>> label_ = std::vector(3, std::vector<AdaptiveBit>(std::size_t{1} << k_label_context));
+  std::vector<std::vector<AdaptiveBit>> label_ =
+      std::vector(3, std::vector<AdaptiveBit>(std::size_t{1} << k_label_context));
   std::array<AdaptiveBit, 256> rare_tissue_, large_residual_;
   std::vector<Residual> residual_ = std::vector<Residual>(k_fit_contexts + 1);
 };
@@ -344,11 +387,17 @@ void pack_octree(ByteReader& canonical, const std::vector<Tissue>& tissues, Byte
     whole.put_bytes(bytes);
   }
   for (std::size_t i = 0; i < streams.distance.size(); ++i)
-    if (i % k_leaves != 0) streams.distance[i] = static_cast<std::uint8_t>(streams.distance[i] + streams.distance[i - 1]);
-  const std::size_t bricks = streams.tissue.size() / k_leaves, full = streams.distance.size() / k_leaves;
-  if (bricks > k_max_bricks) throw Error(msg("tooth"), msg("too much detail for a tooth file: {} bricks", bricks), msg("use a larger leaf"));
+    if (i % k_leaves != 0)
+      streams.distance[i] =
+          static_cast<std::uint8_t>(streams.distance[i] + streams.distance[i - 1]);
+  const std::size_t bricks = streams.tissue.size() / k_leaves,
+                    full = streams.distance.size() / k_leaves;
+  if (bricks > k_max_bricks)
+    throw Error(msg("tooth"), msg("too much detail for a tooth file: {} bricks", bricks),
+                msg("use a larger leaf"));
   RangeEncoder coder;
-  const Walk walk(coder, streams, tissues, levels, static_cast<std::uint32_t>(bricks), static_cast<std::uint32_t>(full));
+  const Walk walk(coder, streams, tissues, levels, static_cast<std::uint32_t>(bricks),
+                  static_cast<std::uint32_t>(full));
   const Bytes bits = coder.finish();
   out.put_bytes(std::span(whole.bytes()).first(k_head_bytes));
   out.put(static_cast<std::uint32_t>(bricks));
@@ -358,23 +407,28 @@ void pack_octree(ByteReader& canonical, const std::vector<Tissue>& tissues, Byte
   out.put(fast_hash(whole.bytes().data(), whole.bytes().size(), 0));
 }
 
-Bytes unpack_octree(ByteReader& in, const std::vector<Tissue>& tissues, const PackedFits* like, KnownFits* keep) {
+Bytes unpack_octree(ByteReader& in, const std::vector<Tissue>& tissues, const PackedFits* like,
+                    KnownFits* keep) {
   ByteWriter out;
   const int levels = copy_head(in, out);
   const auto bricks = in.get<std::uint32_t>(), full = in.get<std::uint32_t>();
-  if (bricks > k_max_bricks || full > bricks) in.fail(msg("has {} bricks, more than the limit of {}", bricks, k_max_bricks));
+  if (bricks > k_max_bricks || full > bricks)
+    in.fail(msg("has {} bricks, more than the limit of {}", bricks, k_max_bricks));
   ByteReader bits(in.get_bytes(in.get<std::uint64_t>()), msg("tooth"));
   RangeDecoder coder(bits);
   Streams streams;
   const Walk walk(coder, streams, tissues, levels, bricks, full, like, keep);
   if (bits.left() != 0) in.fail(msg("data after the end of the octree"));
   for (std::size_t i = streams.distance.size(); i-- > 0;)
-    if (i % k_leaves != 0) streams.distance[i] = static_cast<std::uint8_t>(streams.distance[i] - streams.distance[i - 1]);
+    if (i % k_leaves != 0)
+      streams.distance[i] =
+          static_cast<std::uint8_t>(streams.distance[i] - streams.distance[i - 1]);
   for (const Bytes* part : {&streams.shape, &streams.tissue, &streams.distance}) {
     out.put(static_cast<std::uint64_t>(part->size()));
     out.put_bytes(*part);
   }
-  if (in.get<std::uint64_t>() != fast_hash(out.bytes().data(), out.bytes().size(), 0)) in.fail(msg("the octree does not match its hash"));
+  if (in.get<std::uint64_t>() != fast_hash(out.bytes().data(), out.bytes().size(), 0))
+    in.fail(msg("the octree does not match its hash"));
   return out.take();
 }
 

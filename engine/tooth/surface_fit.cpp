@@ -5,15 +5,18 @@
 namespace cavum {
 namespace {
 
-// Both planes at once, with the vector types of g++ and clang: this is most of the time that loading a tooth takes.
+// Both planes at once, with the vector types of g++ and clang: this is most of the time that
+// loading a tooth takes.
 typedef std::int16_t Shorts [[gnu::vector_size(16)]];
 typedef float Floats [[gnu::vector_size(16)]];
 typedef double Two [[gnu::vector_size(16)]];
 
-/// Neighbours at squared distance g, 1..5, are group g: how many, and their weight: r^-6 for the near plane, r^-2 for the wide one. A guess
-/// weighs 1 wherever it is. All sums of a group fit into 16 bits, and weighted sums stay below 2^24: exact in a float.
+/// Neighbours at squared distance g, 1..5, are group g: how many, and their weight: r^-6 for the
+/// near plane, r^-2 for the wide one. A guess weighs 1 wherever it is. All sums of a group fit into
+/// 16 bits, and weighted sums stay below 2^24: exact in a float.
 constexpr std::array<std::size_t, 6> k_count{0, 6, 12, 8, 6, 24};
-constexpr std::array<float, 6> k_near_weight{0, 4096, 512, 152, 64, 33}, k_wide_weight{0, 1800, 900, 600, 450, 360};
+constexpr std::array<float, 6> k_near_weight{0, 4096, 512, 152, 64, 33},
+    k_wide_weight{0, 1800, 900, 600, 450, 360};
 constexpr std::size_t k_neighbours = 56;
 
 /// What a neighbour at x, y, z adds to the normal equations.
@@ -32,7 +35,8 @@ const std::array<Neighbour, k_neighbours> k_around = [] {  // group after group
         for (int x = -2; x <= 2; ++x) {
           if (x * x + y * y + z * z != squared) continue;
           const auto s = [](int v) { return static_cast<std::int16_t>(v); };
-          around[n++] = {Shorts{1, s(x), s(y), s(z), s(x * x), s(y * y), s(z * z), s(x * y)}, Shorts{1, s(x), s(y), s(z), s(x * z), s(y * z), 0, 0},
+          around[n++] = {Shorts{1, s(x), s(y), s(z), s(x * x), s(y * y), s(z * z), s(x * y)},
+                         Shorts{1, s(x), s(y), s(z), s(x * z), s(y * z), 0, 0},
                          s(FitWindow::index(x, y, z) - FitWindow::index(0, 0, 0))};
         }
   return around;
@@ -42,10 +46,18 @@ const std::array<Neighbour, k_neighbours> k_around = [] {  // group after group
 struct Sums {
   Floats squares_low{}, squares_high{}, others_low{}, others_high{};
   void add(Shorts squares, Shorts others, float weight) noexcept {
-    squares_low += __builtin_convertvector(__builtin_shufflevector(squares, squares, 0, 1, 2, 3), Floats) * weight;
-    squares_high += __builtin_convertvector(__builtin_shufflevector(squares, squares, 4, 5, 6, 7), Floats) * weight;
-    others_low += __builtin_convertvector(__builtin_shufflevector(others, others, 0, 1, 2, 3), Floats) * weight;
-    others_high += __builtin_convertvector(__builtin_shufflevector(others, others, 4, 5, 6, 7), Floats) * weight;
+    squares_low +=
+        __builtin_convertvector(__builtin_shufflevector(squares, squares, 0, 1, 2, 3), Floats) *
+        weight;
+    squares_high +=
+        __builtin_convertvector(__builtin_shufflevector(squares, squares, 4, 5, 6, 7), Floats) *
+        weight;
+    others_low +=
+        __builtin_convertvector(__builtin_shufflevector(others, others, 0, 1, 2, 3), Floats) *
+        weight;
+    others_high +=
+        __builtin_convertvector(__builtin_shufflevector(others, others, 4, 5, 6, 7), Floats) *
+        weight;
   }
 };
 
@@ -80,12 +92,16 @@ SurfaceFit fit_surface(const FitWindow& window, int index) noexcept {
   }
   near.add(guess_squares, guess_others, 1);
   wide.add(guess_squares, guess_others, 1);
-  // The plane d = p0 + p1 x + p2 y + p3 z: p0, by elimination from the last row up. The 1 and 4 on the diagonal pull towards 0
-  // where there is nothing to go by.
+  // The plane d = p0 + p1 x + p2 y + p3 z: p0, by elimination from the last row up. The 1 and 4 on
+  // the diagonal pull towards 0 where there is nothing to go by.
   const auto s = [&](int i) {
-    return i < 4 ? Two{near.squares_low[i], wide.squares_low[i]} : Two{near.squares_high[i - 4], wide.squares_high[i - 4]};
+    return i < 4 ? Two{near.squares_low[i], wide.squares_low[i]}
+                 : Two{near.squares_high[i - 4], wide.squares_high[i - 4]};
   };
-  const auto o = [&](int i) { return i < 4 ? Two{near.others_low[i], wide.others_low[i]} : Two{near.others_high[i - 4], wide.others_high[i - 4]}; };
+  const auto o = [&](int i) {
+    return i < 4 ? Two{near.others_low[i], wide.others_low[i]}
+                 : Two{near.others_high[i - 4], wide.others_high[i - 4]};
+  };
   Two m[4][5] = {{s(0) + 1.0, s(1), s(2), s(3), o(0)},
                  {s(1), s(4) + 4.0, s(7), o(4), o(1)},
                  {s(2), s(7), s(5) + 4.0, o(5), o(2)},

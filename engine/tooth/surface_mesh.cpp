@@ -23,7 +23,8 @@ Body body_of(const Octree& octree, const std::array<bool, 256>& wanted) {
   Body body;
   if (box.empty()) return body;
   box.low = box.low - IVec3{2, 2, 2};
-  body.grid.allocate(box.high - box.low + IVec3{2, 2, 2}, octree.leaf_mm(), octree.origin_mm() + to_vec3(box.low) * octree.leaf_mm());
+  body.grid.allocate(box.high - box.low + IVec3{2, 2, 2}, octree.leaf_mm(),
+                     octree.origin_mm() + to_vec3(box.low) * octree.leaf_mm());
   body.inside.resize(body.grid.count());
   for (std::int32_t z = 0; z < body.grid.size.z; ++z)
     for (std::int32_t y = 0; y < body.grid.size.y; ++y)
@@ -53,23 +54,28 @@ void put_vec(ByteWriter& out, Vec3 v) {
   for (const double d : {v.x, v.y, v.z}) out.put(static_cast<float>(d));
 }
 
-Vec3 corner(const TriangleMesh& mesh, std::size_t triangle, std::size_t i) { return mesh.vertices_mm[mesh.triangles[triangle][i]]; }
+Vec3 corner(const TriangleMesh& mesh, std::size_t triangle, std::size_t i) {
+  return mesh.vertices_mm[mesh.triangles[triangle][i]];
+}
 
 }  // namespace
 
 double signed_volume_mm3(const TriangleMesh& mesh) {
   double six = 0.0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) six += dot(corner(mesh, t, 0), cross(corner(mesh, t, 1), corner(mesh, t, 2)));
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    six += dot(corner(mesh, t, 0), cross(corner(mesh, t, 1), corner(mesh, t, 2)));
   return six / 6.0;
 }
 
 namespace {
 
 /// The surface around all wanted tissues together; `named` is what they are called.
-TriangleMesh surface_around(const Tooth& tooth, const std::array<bool, 256>& wanted, const std::string& named) {
+TriangleMesh surface_around(const Tooth& tooth, const std::array<bool, 256>& wanted,
+                            const std::string& named) {
   const Body body = body_of(tooth.octree, wanted);
   if (body.inside.empty())
-    throw Error(msg("tooth '{}'", tooth.name), msg("holds no {}", named), msg("choose a tissue that `cavum tooth info` shows a volume for"));
+    throw Error(msg("tooth '{}'", tooth.name), msg("holds no {}", named),
+                msg("choose a tissue that `cavum tooth info` shows a volume for"));
   const auto fraction = [&](IVec3 a, IVec3 b) {
     const auto ia = body.grid.index(a), ib = body.grid.index(b);
     const double da = body.grid.distance[ia], db = body.grid.distance[ib];
@@ -77,7 +83,8 @@ TriangleMesh surface_around(const Tooth& tooth, const std::array<bool, 256>& wan
     const double sa = smoothed(body, a) - 0.5, sb = smoothed(body, b) - 0.5;
     return sa > 0 && sb < 0 ? std::clamp(sa / (sa - sb), 0.05, 0.95) : 0.5;
   };
-  return march_tetrahedra(body.grid.size, body.grid.centre_mm({0, 0, 0}), body.grid.leaf_mm, body.inside, fraction);
+  return march_tetrahedra(body.grid.size, body.grid.centre_mm({0, 0, 0}), body.grid.leaf_mm,
+                          body.inside, fraction);
 }
 
 }  // namespace
@@ -132,7 +139,8 @@ Bytes to_stl(const TriangleMesh& mesh) {
   out.put(static_cast<std::uint32_t>(mesh.triangles.size()));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Vec3 a = corner(mesh, t, 0), b = corner(mesh, t, 1), c = corner(mesh, t, 2);
-    put_vec(out, normalized(cross((b - a) * 1e3, (c - a) * 1e3)));  // scaled: a sliver's area is tiny in mm2
+    put_vec(out, normalized(cross((b - a) * 1e3,
+                                  (c - a) * 1e3)));  // scaled: a sliver's area is tiny in mm2
     for (const Vec3 v : {a, b, c}) put_vec(out, v);
     out.put(std::uint16_t{0});
   }
@@ -158,7 +166,8 @@ void write_mesh_file(const TriangleMesh& mesh, const std::string& path) {
   std::string extension = path.substr(std::min(path.size(), path.find_last_of('.')));
   for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   if (extension != ".stl" && extension != ".ply")
-    throw Error(path, msg("the mesh format is not known by this name"), msg("end the name in .stl or .ply"));
+    throw Error(path, msg("the mesh format is not known by this name"),
+                msg("end the name in .stl or .ply"));
   write_file(path, extension == ".stl" ? to_stl(mesh) : to_ply(mesh));
 }
 

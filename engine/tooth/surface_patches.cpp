@@ -10,8 +10,10 @@
 namespace cavum {
 namespace {
 
-// A patch looks at a window of leaves: the points of its cells, and around them what their normals need.
-constexpr int k_points = SurfacePatches::k_edge + 1, k_margin = 3, k_window = k_points + 2 * k_margin;
+// A patch looks at a window of leaves: the points of its cells, and around them what their normals
+// need.
+constexpr int k_points = SurfacePatches::k_edge + 1, k_margin = 3,
+              k_window = k_points + 2 * k_margin;
 constexpr std::size_t k_window_leaves = static_cast<std::size_t>(k_window) * k_window * k_window;
 constexpr std::size_t k_point_count = static_cast<std::size_t>(k_points) * k_points * k_points;
 constexpr std::uint16_t k_no_corner = 0xffff;
@@ -29,7 +31,8 @@ constexpr int patches_along(int leaves) { return leaves / SurfacePatches::k_edge
 struct SurfacePatches::Maker {
   std::array<std::uint8_t, k_window_leaves> tissue;
   std::array<std::int8_t, k_window_leaves> code;
-  std::array<std::int16_t, k_window_leaves> share, between;  // of the tissue in the leaves around, in 729ths
+  std::array<std::int16_t, k_window_leaves> share,
+      between;  // of the tissue in the leaves around, in 729ths
   std::array<std::array<std::uint16_t, k_point_count>, 3> vertex_of;
   std::array<std::array<std::uint32_t, k_points>, k_points> inside;  // [z][y], a bit for each x
   SurfacePatch made;
@@ -39,21 +42,26 @@ struct SurfacePatches::Maker {
   bool hard = true;
   std::uint8_t wanted = k_air;
 
-  static int window_place(int x, int y, int z) { return (x + k_margin) + k_window * ((y + k_margin) + k_window * (z + k_margin)); }
+  static int window_place(int x, int y, int z) {
+    return (x + k_margin) + k_window * ((y + k_margin) + k_window * (z + k_margin));
+  }
   [[nodiscard]] bool is_inside(int place) const {
     const auto i = static_cast<std::size_t>(place);
     return hard ? code[i] < 0 : tissue[i] == wanted;
   }
 
   /// Sums over three leaves along one axis.
-  void blur_along(int step, const std::array<std::int16_t, k_window_leaves>& from, std::array<std::int16_t, k_window_leaves>& to) const {
+  void blur_along(int step, const std::array<std::int16_t, k_window_leaves>& from,
+                  std::array<std::int16_t, k_window_leaves>& to) const {
     to = from;
     for (int i = step; i < static_cast<int>(k_window_leaves) - step; ++i)
-      to[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(from[static_cast<std::size_t>(i - step)] + from[static_cast<std::size_t>(i)] +
-                                                                  from[static_cast<std::size_t>(i + step)]);
+      to[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(
+          from[static_cast<std::size_t>(i - step)] + from[static_cast<std::size_t>(i)] +
+          from[static_cast<std::size_t>(i + step)]);
   }
 
-  /// How much of the leaves around belongs to the tissue; wrong in the window's outermost two layers, which nobody asks for.
+  /// How much of the leaves around belongs to the tissue; wrong in the window's outermost two
+  /// layers, which nobody asks for.
   void blur() {
     for (std::size_t i = 0; i < k_window_leaves; ++i) share[i] = tissue[i] == wanted;
     for (int twice = 0; twice < 2; ++twice) {
@@ -65,20 +73,26 @@ struct SurfacePatches::Maker {
   }
 
   [[nodiscard]] Vec3 code_slope(int place) const {
-    const auto along = [&](int step) { return double(code[static_cast<std::size_t>(place + step)] - code[static_cast<std::size_t>(place - step)]); };
+    const auto along = [&](int step) {
+      return double(code[static_cast<std::size_t>(place + step)] -
+                    code[static_cast<std::size_t>(place - step)]);
+    };
     return {along(k_step[0]), along(k_step[1]), along(k_step[2])};
   }
   /// Outwards, as codes rise.
   [[nodiscard]] Vec3 share_slope(int place) const {
     const auto along = [&](int step) {
-      return double(share[static_cast<std::size_t>(place - step)] - share[static_cast<std::size_t>(place + step)]);
+      return double(share[static_cast<std::size_t>(place - step)] -
+                    share[static_cast<std::size_t>(place + step)]);
     };
     return {along(k_step[0]), along(k_step[1]), along(k_step[2])};
   }
 
   std::uint16_t vertex(const CubeEdge& edge, int x, int y, int z) {
-    const int px = x + (edge.low_corner & 1), py = y + (edge.low_corner >> 1 & 1), pz = z + (edge.low_corner >> 2);
-    auto& known = vertex_of[edge.axis][static_cast<std::size_t>(px + k_points * (py + k_points * pz))];
+    const int px = x + (edge.low_corner & 1), py = y + (edge.low_corner >> 1 & 1),
+              pz = z + (edge.low_corner >> 2);
+    auto& known =
+        vertex_of[edge.axis][static_cast<std::size_t>(px + k_points * (py + k_points * pz))];
     if (known != k_no_corner) return known;
     known = static_cast<std::uint16_t>(made.vertices.size());
 
@@ -92,24 +106,29 @@ struct SurfacePatches::Maker {
       const double of_low = code[l] == 0 ? 1.0 : code[l], of_high = code[h] == 0 ? 1.0 : code[h];
       place = of_low / (of_low - of_high);
       outwards = code_slope(low) * (1.0 - place) + code_slope(high) * place;
-      if ((code[l] < 0) != low_inside) outwards = -outwards;  // of a void tissue, which lies on the other side
+      if ((code[l] < 0) != low_inside)
+        outwards = -outwards;  // of a void tissue, which lies on the other side
     } else {
       const double of_low = share[l] - k_half, of_high = share[h] - k_half;
-      if ((of_low > 0) == low_inside && (of_high > 0) != low_inside) place = std::clamp(of_low / (of_low - of_high), 0.05, 0.95);
+      if ((of_low > 0) == low_inside && (of_high > 0) != low_inside)
+        place = std::clamp(of_low / (of_low - of_high), 0.05, 0.95);
       outwards = share_slope(low) * (1.0 - place) + share_slope(high) * place;
     }
-    Vec3 at{first.x + px + 0.5, first.y + py + 0.5, first.z + pz + 0.5};  // in leaves of the tooth: the same in every patch
+    Vec3 at{first.x + px + 0.5, first.y + py + 0.5,
+            first.z + pz + 0.5};  // in leaves of the tooth: the same in every patch
     Vec3 along{};
     (edge.axis == 0 ? along.x : edge.axis == 1 ? along.y : along.z) = 1.0;
     at += along * place;
     if (!(dot(outwards, outwards) > 0)) outwards = low_inside ? along : -along;  // a leaf alone
     const Vec3 mm = origin_mm + at * leaf_mm, normal = normalized(outwards) * 32767.0;
     const std::size_t in = low_inside ? l : h, out = low_inside ? h : l;
-    made.vertices.push_back({{static_cast<float>(mm.x), static_cast<float>(mm.y), static_cast<float>(mm.z)},
-                             {static_cast<std::int16_t>(std::lround(normal.x)), static_cast<std::int16_t>(std::lround(normal.y)),
-                              static_cast<std::int16_t>(std::lround(normal.z))},
-                             tissue[in],
-                             tissue[out]});
+    made.vertices.push_back(
+        {{static_cast<float>(mm.x), static_cast<float>(mm.y), static_cast<float>(mm.z)},
+         {static_cast<std::int16_t>(std::lround(normal.x)),
+          static_cast<std::int16_t>(std::lround(normal.y)),
+          static_cast<std::int16_t>(std::lround(normal.z))},
+         tissue[in],
+         tissue[out]});
     return known;
   }
 
@@ -117,13 +136,15 @@ struct SurfacePatches::Maker {
     made.vertices.clear();
     made.triangles.clear();
     first = {first_point(patch.x), first_point(patch.y), first_point(patch.z)};
-    leaves.copy_cube(first - IVec3{k_margin, k_margin, k_margin}, k_window, tissue.data(), code.data());
+    leaves.copy_cube(first - IVec3{k_margin, k_margin, k_margin}, k_window, tissue.data(),
+                     code.data());
     std::uint32_t any = 0, all = ~0u;
     for (int z = 0; z < k_points; ++z)
       for (int y = 0; y < k_points; ++y) {
         std::uint32_t row = 0;
         const int place = window_place(0, y, z);
-        for (int x = 0; x < k_points; ++x) row |= static_cast<std::uint32_t>(is_inside(place + x)) << x;
+        for (int x = 0; x < k_points; ++x)
+          row |= static_cast<std::uint32_t>(is_inside(place + x)) << x;
         inside[static_cast<std::size_t>(z)][static_cast<std::size_t>(y)] = row;
         any |= row;
         all &= row;
@@ -142,17 +163,23 @@ struct SurfacePatches::Maker {
   void go_along(int y, int z) {
     const auto& lower = inside[static_cast<std::size_t>(z)];
     const auto& upper = inside[static_cast<std::size_t>(z + 1)];
-    const std::array<std::uint32_t, 4> row{lower[static_cast<std::size_t>(y)], lower[static_cast<std::size_t>(y + 1)],
-                                           upper[static_cast<std::size_t>(y)], upper[static_cast<std::size_t>(y + 1)]};
-    const std::uint32_t any = row[0] | row[1] | row[2] | row[3], all = row[0] & row[1] & row[2] & row[3];
+    const std::array<std::uint32_t, 4> row{
+        lower[static_cast<std::size_t>(y)], lower[static_cast<std::size_t>(y + 1)],
+        upper[static_cast<std::size_t>(y)], upper[static_cast<std::size_t>(y + 1)]};
+    const std::uint32_t any = row[0] | row[1] | row[2] | row[3],
+                        all = row[0] & row[1] & row[2] & row[3];
     const auto& cases = cube_cases();
-    for (std::uint32_t cells = (any | any >> 1) & ~(all & all >> 1) & ((1u << k_edge) - 1); cells != 0; cells &= cells - 1) {
+    for (std::uint32_t cells = (any | any >> 1) & ~(all & all >> 1) & ((1u << k_edge) - 1);
+         cells != 0; cells &= cells - 1) {
       const int x = std::countr_zero(cells);
-      const std::size_t corners = (row[0] >> x & 3) | (row[1] >> x & 3) << 2 | (row[2] >> x & 3) << 4 | (row[3] >> x & 3) << 6;
+      const std::size_t corners = (row[0] >> x & 3) | (row[1] >> x & 3) << 2 |
+                                  (row[2] >> x & 3) << 4 | (row[3] >> x & 3) << 6;
       const CubeCase& found = cases[corners];
       for (int t = 0; t < found.triangles; ++t) {
         std::array<std::uint16_t, 3> triangle;
-        for (std::size_t i = 0; i < 3; ++i) triangle[i] = vertex(k_cube_edges[found.edge[static_cast<std::size_t>(3 * t) + i]], x, y, z);
+        for (std::size_t i = 0; i < 3; ++i)
+          triangle[i] =
+              vertex(k_cube_edges[found.edge[static_cast<std::size_t>(3 * t) + i]], x, y, z);
         made.triangles.push_back(triangle);
       }
     }
@@ -161,7 +188,8 @@ struct SurfacePatches::Maker {
 
 namespace {
 
-/// A cut passes through a patch and leaves less behind than there was meanwhile: that room is given back.
+/// A cut passes through a patch and leaves less behind than there was meanwhile: that room is given
+/// back.
 template <class Item>
 void keep(const std::vector<Item>& made, std::vector<Item>& kept) {
   if (made.size() * 2 < kept.capacity()) std::vector<Item>().swap(kept);
@@ -171,7 +199,8 @@ void keep(const std::vector<Item>& made, std::vector<Item>& kept) {
 }  // namespace
 
 SurfacePatches::SurfacePatches(const LeafBlocks& leaves, std::uint8_t tissue)
-    : size_{patches_along(leaves.size().x), patches_along(leaves.size().y), patches_along(leaves.size().z)},
+    : size_{patches_along(leaves.size().x), patches_along(leaves.size().y),
+            patches_along(leaves.size().z)},
       maker_(std::make_unique<Maker>()),
       patches_(cells_of(size_)),
       reached_(patches_.size(), 0) {
@@ -185,14 +214,18 @@ SurfacePatches::~SurfacePatches() = default;
 SurfacePatches::SurfacePatches(SurfacePatches&&) noexcept = default;
 SurfacePatches& SurfacePatches::operator=(SurfacePatches&&) noexcept = default;
 
-void SurfacePatches::update(const LeafBlocks& leaves, std::span<const LeafBounds> changed, std::vector<std::uint32_t>& touched) {
+void SurfacePatches::update(const LeafBlocks& leaves, std::span<const LeafBounds> changed,
+                            std::vector<std::uint32_t>& touched) {
   const int reach = maker_->hard ? 1 : k_margin;  // of a patch beyond its points
   const auto from = [&](int leaf) { return std::max(0, (leaf - reach) / k_edge); };
-  const auto to = [&](int leaf, int count) { return std::min(count - 1, (leaf + 1 + reach) / k_edge); };
+  const auto to = [&](int leaf, int count) {
+    return std::min(count - 1, (leaf + 1 + reach) / k_edge);
+  };
   for (const LeafBounds& box : changed)
     for (int z = from(box.low.z); z <= to(box.high.z, size_.z); ++z)
       for (int y = from(box.low.y); y <= to(box.high.y, size_.y); ++y)
-        for (int x = from(box.low.x); x <= to(box.high.x, size_.x); ++x) reached_[static_cast<std::size_t>((z * size_.y + y) * size_.x + x)] = 1;
+        for (int x = from(box.low.x); x <= to(box.high.x, size_.x); ++x)
+          reached_[static_cast<std::size_t>((z * size_.y + y) * size_.x + x)] = 1;
   std::size_t number = 0;
   for (int z = 0; z < size_.z; ++z)
     for (int y = 0; y < size_.y; ++y)

@@ -1,5 +1,5 @@
-// A tooth as a plain dense grid: what importers and makers produce, and what the octree is built from
-// and compared with. Leaf (i,j,k) is the cube whose lower corner is origin + leaf·(i,j,k).
+// A tooth as a plain dense grid: what importers and makers produce, and what the octree is built
+// from and compared with. Leaf (i,j,k) is the cube whose lower corner is origin + leaf·(i,j,k).
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace cavum {
 
-/// One tissue of a tooth. A tissue that is not solid (pulp, periodontium) is void to the contact: the
-/// bur enters it without resistance, though its touch still counts with its own k and c.
+/// One tissue of a tooth. A tissue that is not solid (pulp, periodontium) is void to the contact:
+/// the bur enters it without resistance, though its touch still counts with its own k and c.
 struct Tissue {
   std::uint8_t id = k_air;
   std::string name;
@@ -29,7 +29,8 @@ struct Tissue {
   return four;
 }
 
-/// Signed distance to the solid surface in one byte: positive outside (air and pulp), ±127 = ±2 leaves or more.
+/// Signed distance to the solid surface in one byte: positive outside (air and pulp), ±127 = ±2
+/// leaves or more.
 inline constexpr double k_distance_band_leaves = 2.0;
 inline constexpr int k_distance_far = 127;
 
@@ -38,12 +39,15 @@ inline constexpr int k_distance_far = 127;
   const double code = leaves * (k_distance_far / k_distance_band_leaves);
   if (code >= k_distance_far) return k_distance_far;
   if (code <= -k_distance_far) return -k_distance_far;
-  return static_cast<std::int8_t>(code >= 0 ? static_cast<int>(code + 0.5) : static_cast<int>(code - 0.5));
+  return static_cast<std::int8_t>(code >= 0 ? static_cast<int>(code + 0.5)
+                                            : static_cast<int>(code - 0.5));
 }
-[[nodiscard]] constexpr double decode_distance(int code) noexcept { return code * (k_distance_band_leaves / k_distance_far); }
+[[nodiscard]] constexpr double decode_distance(int code) noexcept {
+  return code * (k_distance_band_leaves / k_distance_far);
+}
 
-/// Dense labels and distances, x fastest. Invariant: solid leaves have a negative code, all others a
-/// positive one (`make_consistent` enforces it).
+/// Dense labels and distances, x fastest. Invariant: solid leaves have a negative code, all others
+/// a positive one (`make_consistent` enforces it).
 struct TissueGrid {
   IVec3 size;                         ///< leaves along x, y, z
   double leaf_mm = 0.05;              ///< edge of a leaf, > 0
@@ -61,7 +65,9 @@ struct TissueGrid {
   [[nodiscard]] std::size_t count() const noexcept { return cells_of(size); }
   [[nodiscard]] std::size_t index(IVec3 i) const noexcept { return cell_index(i, size); }
   [[nodiscard]] bool inside(IVec3 i) const noexcept { return lies_in(i, size); }
-  [[nodiscard]] Vec3 centre_mm(IVec3 i) const noexcept { return origin_mm + Vec3{i.x + 0.5, i.y + 0.5, i.z + 0.5} * leaf_mm; }
+  [[nodiscard]] Vec3 centre_mm(IVec3 i) const noexcept {
+    return origin_mm + Vec3{i.x + 0.5, i.y + 0.5, i.z + 0.5} * leaf_mm;
+  }
   /// Makes every code's sign agree with its label: solid at most -1, void at least +1.
   void make_consistent(const std::vector<Tissue>& tissues) {
     bool solid[256] = {};

@@ -18,8 +18,9 @@ struct NamedPoint {
   friend bool operator==(const NamedPoint&, const NamedPoint&) = default;
 };
 
-/// What is to be known of a tooth beside where it comes from: told by the shape and said by nobody; not checked, or confirmed against what was
-/// measured; of the mirror image of what was read (+x mesial and +y buccal do not go together on it otherwise).
+/// What is to be known of a tooth beside where it comes from: told by the shape and said by nobody;
+/// not checked, or confirmed against what was measured; of the mirror image of what was read (+x
+/// mesial and +y buccal do not go together on it otherwise).
 struct ToothNote {
   enum class Kind : std::uint8_t { guess, warning, mirror_image };
   Kind kind = Kind::guess;
@@ -29,10 +30,12 @@ struct ToothNote {
 
 /// What is said of a tooth beside its shape.
 struct ToothFacts {
-  std::string name;                          ///< for people: "lower first molar (parametric)"
-  ToothKind kind;                            ///< which one of the jaw
-  ToothSource source;                        ///< what it was made from, and every assumption made on the way (spacing, frame)
-  std::vector<NamedPoint> placed_landmarks;  ///< that a person put; they stand in place of what find_landmarks finds
+  std::string name;  ///< for people: "lower first molar (parametric)"
+  ToothKind kind;    ///< which one of the jaw
+  ToothSource
+      source;  ///< what it was made from, and every assumption made on the way (spacing, frame)
+  std::vector<NamedPoint>
+      placed_landmarks;  ///< that a person put; they stand in place of what find_landmarks finds
   std::vector<ToothNote> notes;
 };
 
@@ -50,16 +53,19 @@ struct Tooth : ToothFacts {
 /// The most landmarks that a person may put on one tooth, and the longest of their names, bytes.
 inline constexpr std::size_t k_max_placed = 64, k_longest_landmark_name = 32;
 
-/// The compact tooth file (`.cvt`), layout in tooth_file.cpp. The same tooth always gives the same bytes. Throws Error when there are more landmarks
-/// than above, or one with a name that is empty, too long, twice there, or no plain text, or with a place that is not finite.
+/// The compact tooth file (`.cvt`), layout in tooth_file.cpp. The same tooth always gives the same
+/// bytes. Throws Error when there are more landmarks than above, or one with a name that is empty,
+/// too long, twice there, or no plain text, or with a place that is not finite.
 [[nodiscard]] Bytes save_tooth(const Tooth& tooth);
-/// Reads a compact tooth file held in memory; `where` names it in errors. Throws Error on any damage.
+/// Reads a compact tooth file held in memory; `where` names it in errors. Throws Error on any
+/// damage.
 [[nodiscard]] Tooth load_tooth(std::span<const std::uint8_t> bytes, const std::string& where);
 
 void save_tooth_file(const Tooth& tooth, const std::string& path);
 [[nodiscard]] Tooth load_tooth_file(const std::string& path);
 
-/// SHA-256 (hex) of tissues, octree and, where there are any, placed landmarks; name, kind and source do not count. What sessions and scenarios pin.
+/// SHA-256 (hex) of tissues, octree and, where there are any, placed landmarks; name, kind and
+/// source do not count. What sessions and scenarios pin.
 [[nodiscard]] std::string tooth_hash(const Tooth& tooth);
 
 }  // namespace cavum

@@ -1,4 +1,5 @@
-// What a tooth was made from, and every assumption made on the way, as a tooth file keeps it: one entry for each thing that was done to it, in order.
+// What a tooth was made from, and every assumption made on the way, as a tooth file keeps it: one
+// entry for each thing that was done to it, in order.
 #pragma once
 
 #include <array>
@@ -30,8 +31,9 @@ struct MadeByFormula {
 };
 struct MadeBlock {
   static constexpr char k_kind[] = "block";
-  /// One layer of a block. `pulp` and `periodontium` are not solid: a layer of them is a cavity, open at the
-  /// block's sides. A name outside the standard four becomes a new solid tissue with the next free id (>= 5).
+  /// One layer of a block. `pulp` and `periodontium` are not solid: a layer of them is a cavity,
+  /// open at the block's sides. A name outside the standard four becomes a new solid tissue with
+  /// the next free id (>= 5).
   struct Layer {
     std::string tissue;
     double thickness_mm = 0.0;  ///< > 0
@@ -54,7 +56,9 @@ struct SourceFrame {
   Mesial mesial_by{};
   Vec3 mesial;
 };
-[[nodiscard]] constexpr auto names_of(SourceFrame::Mesial) { return std::array{"given", "file_x", "file_y"}; }
+[[nodiscard]] constexpr auto names_of(SourceFrame::Mesial) {
+  return std::array{"given", "file_x", "file_y"};
+}
 struct ImportedMeshes {
   static constexpr char k_kind[] = "meshes";
   SourceMesh enamel, dentin, pulp;
@@ -71,7 +75,9 @@ struct VoxelSpacing {
   By by{};
   Vec3 mm;
 };
-[[nodiscard]] constexpr auto names_of(VoxelSpacing::By) { return std::array{"given", "file", "assumed"}; }
+[[nodiscard]] constexpr auto names_of(VoxelSpacing::By) {
+  return std::array{"given", "file", "assumed"};
+}
 /// "spacing assumed 0.125 mm …: sizes and volumes are not measured"
 [[nodiscard]] Message in_words(const VoxelSpacing& spacing);
 /// Grays of the tissues, where their peaks were found.
@@ -113,7 +119,8 @@ struct GumSet {
   static constexpr char k_kind[] = "gum";
 };
 
-using ToothEntry = std::variant<MadeByFormula, MadeBlock, ImportedMeshes, ImportedVolume, LesionPlanted, NeighbourSet, GumSet>;
+using ToothEntry = std::variant<MadeByFormula, MadeBlock, ImportedMeshes, ImportedVolume,
+                                LesionPlanted, NeighbourSet, GumSet>;
 using ToothSource = std::vector<ToothEntry>;
 
 /// What was done, for people.

@@ -44,23 +44,27 @@ void when_possible(Result& out, Message& why_not, const Make& make) {
 }
 
 /// Severities of facet 2 (of three: candidate, exam, station or judge), with their names.
-std::vector<NamedSeverity> named(const SeverityStudy& study, const std::vector<std::string>& names) {
+std::vector<NamedSeverity> named(const SeverityStudy& study,
+                                 const std::vector<std::string>& names) {
   std::vector<NamedSeverity> out;
-  for (std::size_t i = 0; i < study.facets[1].conditions.size(); ++i) out.push_back({names[i], study.facets[1].conditions[i]});
+  for (std::size_t i = 0; i < study.facets[1].conditions.size(); ++i)
+    out.push_back({names[i], study.facets[1].conditions[i]});
   return out;
 }
 
 /// With what facet 2 may do something together that looks like severity.
-std::vector<std::string> not_told_from(const SeverityStudy& study) {
+std::vector<std::string> indistinguishable_from(const SeverityStudy& study) {
   std::vector<std::string> names;
-  for (const std::uint32_t facet : study.facets[1].not_told_from) names.emplace_back(facet == 1U ? said("candidate") : said("exam"));
+  for (const std::uint32_t facet : study.facets[1].indistinguishable_from)
+    names.emplace_back(facet == 1U ? noop("candidate") : noop("exam"));
   return names;
 }
 
 /// What the exams of the ledger say of one class.
 class Collected {
  public:
-  Collected(const records::Registry& registry, records::Identities& identities, CircuitFigures& figures)
+  Collected(const records::Registry& registry, records::Identities& identities,
+            CircuitFigures& figures)
       : registry_(registry), identities_(identities), figures_(figures) {}
 
   void add(const std::string& exam, const std::vector<HumanMark>& by_people) {
@@ -70,7 +74,8 @@ class Collected {
     const double points = points_of_exam(registry_, exam);
     const auto marked_by = cohort::marked_by(sat);
     pass_percent_.push_back(one_pass_percent(marked_by));
-    if (marked_by.size() > 1) figures_.marked_differently.push_back(msg("{}: {}", exam, marked_by_words(marked_by)));
+    if (marked_by.size() > 1)
+      figures_.marked_differently.push_back(msg("{}: {}", exam, marked_by_words(marked_by)));
     std::map<std::string, std::uint32_t> person_of;
     for (const auto& [pseudonym, session] : sat) {
       const auto known = identities_.of_pseudonym(pseudonym);
@@ -80,7 +85,8 @@ class Collected {
       }
       if (!session->simulated.empty()) ++figures_.simulated;
       const auto& score = session->result->at("score");
-      const CircuitMark m{candidates.of(known->id), number, stations.of(station_label(registry_, session->station_key)), 0,
+      const CircuitMark m{candidates.of(known->id), number,
+                          stations.of(station_label(registry_, session->station_key)), 0,
                           100 * score.at("points").get<double>() / score.at("max").get<double>()};
       person_of[pseudonym] = m.candidate;
       program.push_back(m);
@@ -88,7 +94,8 @@ class Collected {
     }
     for (const HumanMark& h : by_people) {
       if (const auto at = person_of.find(h.candidate); at != person_of.end()) {
-        people.push_back({at->second, marked.of(exam), 0, judges.of(h.judge), 100 * h.points / points});
+        people.push_back(
+            {at->second, marked.of(exam), 0, judges.of(h.judge), 100 * h.points / points});
         continue;
       }
       const auto known = identities_.of_pseudonym(h.candidate);
@@ -117,10 +124,12 @@ class Collected {
   std::vector<std::optional<double>> pass_percent_;  // by exam
 };
 
-void put_roster(CircuitFigures& f, const Collected& all, const std::optional<SeverityStudy>& severity) {
+void put_roster(CircuitFigures& f, const Collected& all,
+                const std::optional<SeverityStudy>& severity) {
   const std::size_t exams = f.exams.size();
   for (const auto& name : all.candidates.names())
-    f.roster.push_back({name, std::vector<double>(exams, -1.0), std::vector<std::string>(exams), 0.0, {}});
+    f.roster.push_back(
+        {name, std::vector<double>(exams, -1.0), std::vector<std::string>(exams), 0.0, {}});
   for (const CircuitMark& m : all.program) {
     RosterRow& row = f.roster[m.candidate];
     row.percent[m.exam] = m.percent;
@@ -136,14 +145,17 @@ void put_roster(CircuitFigures& f, const Collected& all, const std::optional<Sev
     if (severity) row.adjusted = severity->persons[p].adjusted;
   }
   f.candidates = f.roster.size();
-  std::sort(f.roster.begin(), f.roster.end(), [](const RosterRow& a, const RosterRow& b) { return a.candidate < b.candidate; });
+  std::sort(f.roster.begin(), f.roster.end(),
+            [](const RosterRow& a, const RosterRow& b) { return a.candidate < b.candidate; });
 }
 
 }  // namespace
 
-CircuitFigures circuit_figures(const records::Registry& registry, records::Identities& identities, const std::vector<std::string>& exams,
+CircuitFigures circuit_figures(const records::Registry& registry, records::Identities& identities,
+                               const std::vector<std::string>& exams,
                                const std::map<std::string, std::vector<HumanMark>>& marks) {
-  if (exams.size() < 2) throw Error(msg("a circuit"), msg("has two exams at least"), msg("name them with --exams A,B"));
+  if (exams.size() < 2)
+    throw Error(msg("a circuit"), msg("has two exams at least"), msg("name them with --exams A,B"));
   if (std::set<std::string>(exams.begin(), exams.end()).size() != exams.size())
     throw Error(msg("a circuit"), msg("names an exam twice"), msg("name each once"));
   CircuitFigures f;
@@ -152,7 +164,8 @@ CircuitFigures circuit_figures(const records::Registry& registry, records::Ident
     const auto by_people = marks.find(exam);
     all.add(exam, by_people == marks.end() ? std::vector<HumanMark>() : by_people->second);
   }
-  require_distinct_judges({all.judges.names().begin(), all.judges.names().end()}, msg("people's marks"));
+  require_distinct_judges({all.judges.names().begin(), all.judges.names().end()},
+                          msg("people's marks"));
   f.cut_percent = all.cut_percent();
 
   std::vector<StudyMark> by_exam, by_station, by_judge;
@@ -161,18 +174,25 @@ CircuitFigures circuit_figures(const records::Registry& registry, records::Ident
     by_station.push_back({{m.candidate, m.exam, m.station}, m.percent});
   }
   for (const auto& m : all.people) by_judge.push_back({{m.candidate, m.exam, m.judge}, m.percent});
-  when_possible(f.program, f.why_no_program, [&] { return study_circuit(crossed_design({"candidate", "exam"}), by_exam, f.cut_percent); });
+  when_possible(f.program, f.why_no_program, [&] {
+    return study_circuit(crossed_design({"candidate", "exam"}), by_exam, f.cut_percent);
+  });
   if (all.people.empty())
     f.why_no_people = msg("no marks of people");
   else
-    when_possible(f.people, f.why_no_people, [&] { return study_of_judges(by_judge, f.cut_percent); });
+    when_possible(f.people, f.why_no_people,
+                  [&] { return study_of_judges(by_judge, f.cut_percent); });
 
   std::optional<SeverityStudy> severity, of_judges;
   when_possible(severity, f.why_no_stations, [&] { return study_severity(by_station); });
-  if (severity) f.stations = named(*severity, all.stations.names()), f.stations_not_told_from = not_told_from(*severity);
+  if (severity)
+    f.stations = named(*severity, all.stations.names()),
+    f.stations_indistinguishable_from = indistinguishable_from(*severity);
   if (!by_judge.empty()) {
     when_possible(of_judges, f.why_no_judges, [&] { return study_severity(by_judge); });
-    if (of_judges) f.judges = named(*of_judges, all.judges.names()), f.judges_not_told_from = not_told_from(*of_judges);
+    if (of_judges)
+      f.judges = named(*of_judges, all.judges.names()),
+      f.judges_indistinguishable_from = indistinguishable_from(*of_judges);
   }
   put_roster(f, all, severity);
   return f;

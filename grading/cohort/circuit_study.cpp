@@ -12,15 +12,15 @@ namespace cavum::cohort {
 namespace {
 
 /// Effects as people read them: the catalogue takes them from here.
-[[maybe_unused]] constexpr std::array k_effect_words{said("candidate"),
-                                                     said("exam"),
-                                                     said("judge"),
-                                                     said("judge:exam"),
-                                                     said("candidate x exam"),
-                                                     said("candidate x judge"),
-                                                     said("candidate x judge:exam"),
-                                                     said("exam x judge"),
-                                                     said("candidate x exam x judge")};
+[[maybe_unused]] constexpr std::array k_effect_words{noop("candidate"),
+                                                     noop("exam"),
+                                                     noop("judge"),
+                                                     noop("judge:exam"),
+                                                     noop("candidate x exam"),
+                                                     noop("candidate x judge"),
+                                                     noop("candidate x judge:exam"),
+                                                     noop("exam x judge"),
+                                                     noop("candidate x exam x judge")};
 
 constexpr int k_range_draws = 1000;
 constexpr std::uint64_t k_range_seed = 1;  // the same marks give the same ranges
@@ -34,14 +34,16 @@ std::vector<double> values_of(const std::vector<StudyMark>& marks) {
 /// Each candidate counts once.
 double mean_of_candidates(const std::vector<StudyMark>& marks) {
   std::map<std::uint32_t, std::pair<double, double>> of_candidate;
-  for (const auto& m : marks) of_candidate[m.level[0]].first += m.value, of_candidate[m.level[0]].second += 1;
+  for (const auto& m : marks)
+    of_candidate[m.level[0]].first += m.value, of_candidate[m.level[0]].second += 1;
   double sum = 0;
   for (const auto& [p, of] : of_candidate) sum += of.first / of.second;
   return sum / static_cast<double>(of_candidate.size());
 }
 
 /// How many different second things stand with a first one, at most.
-std::size_t most_partners(const std::vector<StudyMark>& marks, std::size_t first, std::size_t second) {
+std::size_t most_partners(const std::vector<StudyMark>& marks, std::size_t first,
+                          std::size_t second) {
   std::map<std::uint32_t, std::set<std::uint32_t>> partners;
   std::size_t most = 0;
   for (const auto& m : marks) {
@@ -62,7 +64,8 @@ std::optional<int> fewest(const Phi& phi) {
 
 }  // namespace
 
-CircuitStudy study_circuit(StudyDesign design, const std::vector<StudyMark>& marks, std::optional<double> cut) {
+CircuitStudy study_circuit(StudyDesign design, const std::vector<StudyMark>& marks,
+                           std::optional<double> cut) {
   const VarianceStudy study(std::move(design), marks);
   CircuitStudy s;
   s.design = study.design();
@@ -75,22 +78,27 @@ CircuitStudy study_circuit(StudyDesign design, const std::vector<StudyMark>& mar
   StudyRanges ranges = study_ranges(study, s.components, circuits, k_range_draws, k_range_seed);
   s.range = ranges.circuits[0];
   s.error = std::move(ranges.error);
-  for (const auto& shares : circuits) s.by_tasks.push_back(dependability(s.design, s.components, shares, s.marking.persons()));
+  for (const auto& shares : circuits)
+    s.by_tasks.push_back(dependability(s.design, s.components, shares, s.marking.persons()));
   s.as_sat = s.by_tasks.front();
   s.by_tasks.erase(s.by_tasks.begin());
   s.mean = mean_of_candidates(marks);
   if (cut) s.at_cut = cut_decision(s.as_sat, s.mean, *cut);
-  s.for_enough = {fewest([&](std::size_t i) { return s.by_tasks[i].phi; }), fewest([&](std::size_t i) { return ranges.circuits[i + 1].phi_high; }),
+  s.for_enough = {fewest([&](std::size_t i) { return s.by_tasks[i].phi; }),
+                  fewest([&](std::size_t i) { return ranges.circuits[i + 1].phi_high; }),
                   fewest([&](std::size_t i) { return ranges.circuits[i + 1].phi_low; })};
   return s;
 }
 
 CircuitStudy study_of_judges(const std::vector<StudyMark>& marks, std::optional<double> cut) {
   if (most_partners(marks, 1, 2) <= 1)
-    throw Error(msg("people's marks"), msg("are one judge's in each exam: judge and exam cannot be told apart"),
+    throw Error(msg("people's marks"),
+                msg("are one judge's in each exam: judge and exam cannot be told apart"),
                 msg("have each exam marked by two judges at least"));
   const bool nested = most_partners(marks, 2, 1) <= 1;
-  return study_circuit(nested ? nested_design("candidate", "exam", "judge") : crossed_design({"candidate", "exam", "judge"}), marks, cut);
+  return study_circuit(nested ? nested_design("candidate", "exam", "judge")
+                              : crossed_design({"candidate", "exam", "judge"}),
+                       marks, cut);
 }
 
 }  // namespace cavum::cohort

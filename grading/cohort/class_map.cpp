@@ -23,7 +23,9 @@ std::size_t ClassMap::index(IVec3 leaf) const noexcept { return cell_index(leaf 
 void ClassMap::reach(IVec3 low, IVec3 high) {
   const IVec3 end = low_ + size_;
   if (!count_.empty()) {
-    if (low.x >= low_.x && low.y >= low_.y && low.z >= low_.z && high.x <= end.x && high.y <= end.y && high.z <= end.z) return;
+    if (low.x >= low_.x && low.y >= low_.y && low.z >= low_.z && high.x <= end.x &&
+        high.y <= end.y && high.z <= end.z)
+      return;
     low = min(low, low_);
     high = max(high, end);
   }
@@ -33,7 +35,8 @@ void ClassMap::reach(IVec3 low, IVec3 high) {
   wider.count_.assign(cells_of(wider.size_), 0);
   for (int z = low_.z; z < end.z; ++z)
     for (int y = low_.y; y < end.y; ++y)
-      for (int x = low_.x; x < end.x; ++x) wider.count_[wider.index({x, y, z})] = count_[index({x, y, z})];
+      for (int x = low_.x; x < end.x; ++x)
+        wider.count_[wider.index({x, y, z})] = count_[index({x, y, z})];
   low_ = wider.low_;
   size_ = wider.size_;
   count_ = std::move(wider.count_);
@@ -56,7 +59,8 @@ double ClassMap::percent(IVec3 leaf) const noexcept {
   const double removed = 100.0 * count_[index(leaf)] / static_cast<double>(sessions_);
   const scenarios::Zone zone = zones_->zone(leaf);
   if (zone == scenarios::Zone::target) return removed - 100;
-  return zone == scenarios::Zone::leeway_sides || zone == scenarios::Zone::leeway_bottom ? 0 : removed;
+  return zone == scenarios::Zone::leeway_sides || zone == scenarios::Zone::leeway_bottom ? 0
+                                                                                         : removed;
 }
 
 namespace {
@@ -77,7 +81,9 @@ std::vector<IVec3> counted_leaves(const SessionReader& reader) {
 
 }  // namespace
 
-std::unique_ptr<ClassTooth> class_tooth(const records::Registry& registry, const records::LedgerPlaces& places, const std::string& exam) {
+std::unique_ptr<ClassTooth> class_tooth(const records::Registry& registry,
+                                        const records::LedgerPaths& places,
+                                        const std::string& exam) {
   auto out = std::make_unique<ClassTooth>();
   struct Task {
     std::string path;  // of one of its sessions
@@ -98,13 +104,15 @@ std::unique_ptr<ClassTooth> class_tooth(const records::Registry& registry, const
       out->findings.push_back(msg("entry {}: {}", session->seq, e.message()));
     }
   }
-  const auto most =
-      std::max_element(tasks.begin(), tasks.end(), [](const auto& a, const auto& b) { return a.second.cavities.size() < b.second.cavities.size(); });
+  const auto most = std::max_element(tasks.begin(), tasks.end(), [](const auto& a, const auto& b) {
+    return a.second.cavities.size() < b.second.cavities.size();
+  });
   if (most == tasks.end())
-    throw Error(
-        places.folder,
-        out->findings.empty() ? msg("no session of '{}' can be read", exam) : msg("no session of '{}' can be read ({})", exam, out->findings.front()),
-        msg("see `cavum ledger verify {}`", places.folder));
+    throw Error(places.folder,
+                out->findings.empty()
+                    ? msg("no session of '{}' can be read", exam)
+                    : msg("no session of '{}' can be read ({})", exam, out->findings.front()),
+                msg("see `cavum ledger verify {}`", places.folder));
   const auto sat = scenarios::prepare_exam(SessionReader(most->second.path).setup());
   out->scenario = std::move(sat->scenario);
   out->tooth = std::move(sat->tooth);

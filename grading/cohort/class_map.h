@@ -1,4 +1,5 @@
-// Where on the tooth a class removes what it should leave and leaves what it should remove: leaf by leaf, how many of those who sat one exam.
+// Where on the tooth a class removes what it should leave and leaves what it should remove: leaf by
+// leaf, how many of those who sat one exam.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +21,9 @@ class ClassMap {
   void add(const std::vector<IVec3>& removed);
 
   [[nodiscard]] std::size_t sessions() const noexcept { return sessions_; }
-  /// Per cent of the class, -100..100: + that removed this leaf although it lies outside the target and its leeway, - that left it although it lies
-  /// inside the target. 0 in the leeway, for that may be removed or left.
+  /// Per cent of the class, -100..100: + that removed this leaf although it lies outside the target
+  /// and its leeway, - that left it although it lies inside the target. 0 in the leeway, for that
+  /// may be removed or left.
   [[nodiscard]] double percent(IVec3 leaf) const noexcept;
   /// First leaf and number of leaves of the box that holds all removed leaves and the target.
   [[nodiscard]] IVec3 low() const noexcept { return low_; }
@@ -43,11 +45,14 @@ struct ClassTooth {
   Tooth tooth;
   scenarios::ZoneMap zones;
   std::unique_ptr<ClassMap> map;
-  std::size_t left_out = 0;       ///< that sat the same exam with another text, tooth or leaf than most
-  std::vector<Message> findings;  ///< sessions whose files are gone or changed: they are not in the map
+  std::size_t left_out = 0;  ///< that sat the same exam with another text, tooth or leaf than most
+  std::vector<Message>
+      findings;  ///< sessions whose files are gone or changed: they are not in the map
 };
-/// Reads the filed sessions that count for one exam (counting_sessions). Throws Error when none of them can be read.
-[[nodiscard]] std::unique_ptr<ClassTooth> class_tooth(const records::Registry& registry, const records::LedgerPlaces& places,
+/// Reads the filed sessions that count for one exam (counting_sessions). Throws Error when none of
+/// them can be read.
+[[nodiscard]] std::unique_ptr<ClassTooth> class_tooth(const records::Registry& registry,
+                                                      const records::LedgerPaths& places,
                                                       const std::string& exam);
 
 }  // namespace cavum::cohort

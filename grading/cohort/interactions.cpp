@@ -17,7 +17,8 @@ std::size_t levels_of(std::span<const StudyMark> marks, std::size_t facet) {
   return seen.size();
 }
 
-std::vector<double> sums_by(const std::vector<std::uint32_t>& group, std::span<const double> values) {
+std::vector<double> sums_by(const std::vector<std::uint32_t>& group,
+                            std::span<const double> values) {
   std::vector<double> sum(1 + *std::max_element(group.begin(), group.end()));
   for (std::size_t i = 0; i < group.size(); ++i) sum[group[i]] += values[i];
   return sum;
@@ -44,7 +45,8 @@ Interactions interactions_of(std::span<const StudyMark> marks) {
       pair.effect = 1U << a | 1U << b;
       pair.group = groups_under(pair.effect, marks);
       if (pair.group == rest.group) continue;
-      const auto groups = static_cast<double>(1 + *std::max_element(pair.group.begin(), pair.group.end()));
+      const auto groups =
+          static_cast<double>(1 + *std::max_element(pair.group.begin(), pair.group.end()));
       pair.marks_each = static_cast<double>(marks.size()) / groups;
       pair.freedom = groups - static_cast<double>(levels_of(marks, a) + levels_of(marks, b)) + 1;
       if (pair.freedom >= 1)
@@ -58,7 +60,8 @@ Interactions interactions_of(std::span<const StudyMark> marks) {
 
 }  // namespace
 
-Interactions estimate_interactions(std::span<const StudyMark> marks, double free, const Residuals& residuals) {
+Interactions estimate_interactions(std::span<const StudyMark> marks, double free,
+                                   const Residuals& residuals) {
   Interactions out = interactions_of(marks);
   std::vector<double> values;
   for (const StudyMark& m : marks) values.push_back(m.value);
@@ -68,7 +71,8 @@ Interactions estimate_interactions(std::span<const StudyMark> marks, double free
   for (std::size_t k = 0; k + 1 < n; ++k) rest_freedom -= out.list[k].freedom;
   out.list[n - 1].freedom = std::max(1.0, rest_freedom);
 
-  // expected[i][k]: how much of interaction k of variance 1 stands in the residuals' squares by the groups of i.
+  // expected[i][k]: how much of interaction k of variance 1 stands in the residuals' squares by the
+  // groups of i.
   Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd squares(n);
   for (std::size_t i = 0; i < n; ++i) squares[i] = squares_by(out.list[i], left);
@@ -99,7 +103,8 @@ Interactions estimate_interactions(std::span<const StudyMark> marks, double free
       if (variance[k] < std::min(0.0, worst + 1 == in.size() ? 0.0 : variance[worst])) worst = k;
     if (!inverse) worst = in.size() > 1 ? in.size() - 2 : 0;
     if (inverse && worst + 1 == in.size()) {
-      for (std::size_t k = 0; k < in.size(); ++k) out.list[in[k]].variance = std::max(0.0, variance[k]);
+      for (std::size_t k = 0; k < in.size(); ++k)
+        out.list[in[k]].variance = std::max(0.0, variance[k]);
       return out;
     }
     if (in.size() == 1) return out;
@@ -118,7 +123,8 @@ ErrorOfSum error_of_sum(const Interactions& interactions, std::span<const double
     for (const double sum : sums_by(of.group, weights)) squares += sum * sum;
     out.variance += squares * of.variance;
     // A mean square of its groups tells it: the rest, and as many of it as a group has marks.
-    const double share = squares / of.marks_each, mean_square = rest.variance + of.marks_each * of.variance;
+    const double share = squares / of.marks_each,
+                 mean_square = rest.variance + of.marks_each * of.variance;
     uncertainty += share * share * mean_square * mean_square / of.freedom;
     left -= share;
   }

@@ -14,7 +14,8 @@ namespace {
 std::string bare(const std::string& name) {
   std::string out;
   for (std::size_t i = 0; i < name.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(name[i]), next = static_cast<unsigned char>(i + 1 < name.size() ? name[i + 1] : 0);
+    const auto byte = static_cast<unsigned char>(name[i]),
+               next = static_cast<unsigned char>(i + 1 < name.size() ? name[i + 1] : 0);
     if (byte == 0xC2 && next == 0xA0) {  // a blank that does not break
       ++i;
     } else if (byte == 0xC3 && next >= 0x80 && next <= 0x9E && next != 0x97) {
@@ -35,7 +36,9 @@ void require_distinct_judges(const std::set<std::string>& names, const Message& 
   for (const auto& name : names) {
     const auto [at, is_new] = seen.try_emplace(bare(name), name);
     if (!is_new)
-      throw Error(where, msg("names judges '{}' and '{}', which differ by case or blanks alone", one_line(at->second), one_line(name)),
+      throw Error(where,
+                  msg("names judges '{}' and '{}', which differ by case or blanks alone",
+                      one_line(at->second), one_line(name)),
                   msg("write each judge in one way; two people need two names"));
   }
 }

@@ -40,7 +40,8 @@ std::vector<std::uint32_t> groups_under(std::uint32_t effect, std::span<const St
     std::vector<std::uint32_t> key;
     for (std::size_t f = 0; f < m.level.size(); ++f)
       if ((effect >> f & 1U) != 0) key.push_back(m.level[f]);
-    group.push_back(number.try_emplace(std::move(key), static_cast<std::uint32_t>(number.size())).first->second);
+    group.push_back(number.try_emplace(std::move(key), static_cast<std::uint32_t>(number.size()))
+                        .first->second);
   }
   return group;
 }
@@ -55,14 +56,16 @@ Marking::Marking(const StudyDesign& design, std::span<const StudyMark> marks) {
     persons_of_task[m.level[1]] += 1;
   }
   persons_ = static_cast<double>(of_person.size());
-  // Pairs of marks that an average goes over: of one candidate, then of two; from two tasks, then from one.
+  // Pairs of marks that an average goes over: of one candidate, then of two; from two tasks, then
+  // from one.
   double with_two_tasks = 0, same_pairs = 0, places = 0, squared_tasks = 0, own_pairs = 0;
-  for (const auto& [p, n] : tasks_of_person) with_two_tasks += n > 1 ? 1 : 0, own_pairs += n * n - n, places += n;
+  for (const auto& [p, n] : tasks_of_person)
+    with_two_tasks += n > 1 ? 1 : 0, own_pairs += n * n - n, places += n;
   for (const auto& [t, n] : persons_of_task) same_pairs += n * n - n, squared_tasks += n * n;
   const double other_pairs = places * places - squared_tasks - own_pairs;
   for (const std::uint32_t effect : design.effects) {
     const auto group = groups_under(effect, marks);
-    Weights given, of_task, of_person_sum;                     // (person, group), (task, group), (person, group)
+    Weights given, of_task, of_person_sum;  // (person, group), (task, group), (person, group)
     std::map<std::pair<Pair, std::uint32_t>, double> at_task;  // ((person, task), group)
     for (std::size_t i = 0; i < marks.size(); ++i) {
       const std::uint32_t p = marks[i].level[0], t = marks[i].level[1];
@@ -74,7 +77,8 @@ Marking::Marking(const StudyDesign& design, std::span<const StudyMark> marks) {
     }
     const double squares = sum_of_squares(given);
     as_given_.own.push_back(squares / persons_);
-    as_given_.common.push_back(share_of(sum_of_squares(by_second(given)) - squares, persons_ * (persons_ - 1)));
+    as_given_.common.push_back(
+        share_of(sum_of_squares(by_second(given)) - squares, persons_ * (persons_ - 1)));
 
     double same = 0, all_same = 0, own_other = 0, all_own_other = 0;
     std::map<std::uint32_t, double> same_of_person;
@@ -91,7 +95,8 @@ Marking::Marking(const StudyDesign& design, std::span<const StudyMark> marks) {
     other_task_.own.push_back(own_other);
     const double by_task = sum_of_squares(of_task);
     same_task_.common.push_back(share_of(by_task - all_same, same_pairs));
-    other_task_.common.push_back(share_of(sum_of_squares(by_second(of_task)) - by_task - all_own_other, other_pairs));
+    other_task_.common.push_back(
+        share_of(sum_of_squares(by_second(of_task)) - by_task - all_own_other, other_pairs));
   }
   count(design, marks);
 }
@@ -104,13 +109,17 @@ void Marking::count(const StudyDesign& design, std::span<const StudyMark> marks)
   for (const auto& [p, n] : each) even_ = even_ && n == each.begin()->second;
   for (std::size_t f = 1; f < design.facets.size(); ++f) {
     bool alone = false;
-    for (const std::uint32_t e : design.effects) alone = alone || ((e >> f & 1U) != 0 && (e & 2U) == 0);
+    for (const std::uint32_t e : design.effects)
+      alone = alone || ((e >> f & 1U) != 0 && (e & 2U) == 0);
     const bool nested = f > 1 && !alone;
-    std::map<Pair, std::set<std::uint32_t>> different;  // of a candidate, and of a task of his where the facet is nested in it
-    for (const StudyMark& m : marks) different[{m.level[0], nested ? m.level[1] : 0}].insert(m.level[f]);
+    std::map<Pair, std::set<std::uint32_t>>
+        different;  // of a candidate, and of a task of his where the facet is nested in it
+    for (const StudyMark& m : marks)
+      different[{m.level[0], nested ? m.level[1] : 0}].insert(m.level[f]);
     double sum = 0;
     for (const auto& [at, levels] : different)
-      sum += static_cast<double>(levels.size()), even_ = even_ && levels.size() == different.begin()->second.size();
+      sum += static_cast<double>(levels.size()),
+          even_ = even_ && levels.size() == different.begin()->second.size();
     nested_.push_back(nested);
     conditions_.push_back(sum / static_cast<double>(different.size()));
   }

@@ -23,14 +23,16 @@ std::optional<AttemptScatter> attempt_scatter(const std::vector<std::vector<doub
   if (s.steps < k_min_steps || s.candidates < k_min_repeaters) return std::nullopt;
   s.sd_percent = std::sqrt(variance(steps) / 2);
   const double middle = mean(steps);
-  for (const double step : steps) s.largest_percent = std::max(s.largest_percent, std::fabs(step - middle));
+  for (const double step : steps)
+    s.largest_percent = std::max(s.largest_percent, std::fabs(step - middle));
   return s;
 }
 
 std::optional<Progress> progress(std::span<const double> marks, const AttemptScatter& scatter) {
   const auto n = static_cast<double>(marks.size());
   if (marks.size() < 2) return std::nullopt;
-  double slope = 0, spread = 0;  // of the line through all attempts; sum of squares of their numbers around the middle
+  double slope = 0, spread = 0;  // of the line through all attempts; sum of squares of their
+                                 // numbers around the middle
   for (std::size_t i = 0; i < marks.size(); ++i) {
     const double t = static_cast<double>(i) - (n - 1) / 2;
     slope += t * marks[i];
@@ -42,7 +44,9 @@ std::optional<Progress> progress(std::span<const double> marks, const AttemptSca
   const double students = boost::math::quantile(boost::math::complement(t, chance / 2));
   // deviation of the line's change, in deviations of one mark; of a step it is the root of two
   const double wide = (n - 1) / std::sqrt(spread);
-  return Progress{marks.size(), slope * (n - 1), wide * std::max(students * scatter.sd_percent, scatter.largest_percent / std::sqrt(2.0))};
+  return Progress{
+      marks.size(), slope * (n - 1),
+      wide * std::max(students * scatter.sd_percent, scatter.largest_percent / std::sqrt(2.0))};
 }
 
 }  // namespace cavum::cohort

@@ -19,24 +19,29 @@ namespace cavum::cohort {
 namespace {
 
 /// The session is not sealed: nobody keeps it.
-grading::Result result_of(const scenarios::ExamSetup& form, int level, std::uint64_t seed, const std::string& session,
-                          grading::ExamContexts& grounds) {
-  auto hands = scenarios::make_simulated_candidate(form, fmt::format("student-{}", level), seed, OmniModel{});
+grading::Result result_of(const scenarios::ExamSetup& form, int level, std::uint64_t seed,
+                          const std::string& session, grading::ExamContexts& grounds) {
+  auto hands = scenarios::make_simulated_candidate(form, fmt::format("student-{}", level), seed,
+                                                   OmniModel{});
   const auto exam = scenarios::Exam::start(form, session, hands.start_mm());
   scenarios::run_exam(*exam, hands);
   exam->recorder().flush();
-  const auto graded = grading::load_for_grading(SessionReader(exam->recorder().image(), session), exam->tooth_now(), grounds);
+  const auto graded = grading::load_for_grading(SessionReader(exam->recorder().image(), session),
+                                                exam->tooth_now(), grounds);
   return grading::grade(graded->input(), graded->rubric);
 }
 
 /// One task on another tooth has a target of the same bodies, whatever their sizes.
 bool is_one_task(const scenarios::Scenario& a, const scenarios::Scenario& b) {
-  return std::equal(
-      a.zones.target.begin(), a.zones.target.end(), b.zones.target.begin(), b.zones.target.end(),
-      [](const scenarios::ShapeSpec& x, const scenarios::ShapeSpec& y) { return x.kind == y.kind && x.outline.kind == y.outline.kind; });
+  return std::equal(a.zones.target.begin(), a.zones.target.end(), b.zones.target.begin(),
+                    b.zones.target.end(),
+                    [](const scenarios::ShapeSpec& x, const scenarios::ShapeSpec& y) {
+                      return x.kind == y.kind && x.outline.kind == y.outline.kind;
+                    });
 }
 
-std::vector<std::unique_ptr<scenarios::ExamSetup>> prepared(const std::vector<std::string>& files, FormsSat& sat) {
+std::vector<std::unique_ptr<scenarios::ExamSetup>> prepared(const std::vector<std::string>& files,
+                                                            FormsSat& sat) {
   std::vector<std::unique_ptr<scenarios::ExamSetup>> forms;
   for (const auto& file : files) {
     scenarios::ExamOptions options;
@@ -44,18 +49,21 @@ std::vector<std::unique_ptr<scenarios::ExamSetup>> prepared(const std::vector<st
     forms.push_back(scenarios::prepare_exam(file, options));
     const scenarios::Scenario& s = forms.back()->scenario;
     if (std::find(sat.ids.begin(), sat.ids.end(), s.id) != sat.ids.end())
-      throw Error(file, msg("its id '{}' is that of another form", s.id), msg("name each form once"));
+      throw Error(file, msg("its id '{}' is that of another form", s.id),
+                  msg("name each form once"));
     const bool first = sat.ids.empty();
     if (!first && s.rubric.pass_percent != sat.pass_percent)
       throw Error(file,
-                  msg("its pass mark is {}, that of {} is {}", as_percent(s.rubric.pass_percent, k_as_needed), sat.ids[0],
+                  msg("its pass mark is {}, that of {} is {}",
+                      as_percent(s.rubric.pass_percent, k_as_needed), sat.ids[0],
                       as_percent(sat.pass_percent, k_as_needed)),
                   msg("forms of one exam have one pass mark"));
     if (!first && !is_one_task(s, forms.front()->scenario))
       throw Error(file, msg("its target is made of other bodies than that of {}", sat.ids[0]),
                   msg("forms of one exam are one task on several teeth"));
     sat.pass_percent = s.rubric.pass_percent;
-    sat.borderline_percent = first ? s.rubric.borderline_percent : std::min(sat.borderline_percent, s.rubric.borderline_percent);
+    sat.borderline_percent = first ? s.rubric.borderline_percent
+                                   : std::min(sat.borderline_percent, s.rubric.borderline_percent);
     sat.ids.push_back(s.id);
   }
   return forms;
@@ -84,7 +92,8 @@ FormsSat sit_forms(const FormsWanted& wanted, const std::function<void(int)>& do
       [&](std::size_t i) {
         const std::size_t form = i / n, student = i % n;
         const std::string session = scratch.file(fmt::format("{}.cavum", i));
-        const auto r = result_of(*forms[form], sat.level[student], sat.seed[student], session, grounds);
+        const auto r =
+            result_of(*forms[form], sat.level[student], sat.seed[student], session, grounds);
         std::error_code ignored;
         std::filesystem::remove(session, ignored);
         const std::lock_guard lock(one);

@@ -25,8 +25,9 @@ struct FormsSat {
   double pass_percent = 0.0;        ///< the same of all forms
   double borderline_percent = 0.0;  ///< the least of all forms
 };
-/// Student i of n is `student-LEVEL` with levels spread evenly over 0 to 100, and has habits of his own that he brings to every form. `done(i)` after
-/// each exam. Throws Error when a form cannot be sat, when two forms are one exam, or when their pass marks differ.
+/// Student i of n is `student-LEVEL` with levels spread evenly over 0 to 100, and has habits of his
+/// own that he brings to every form. `done(i)` after each exam. Throws Error when a form cannot be
+/// sat, when two forms are one exam, or when their pass marks differ.
 [[nodiscard]] FormsSat sit_forms(const FormsWanted& wanted, const std::function<void(int)>& done);
 
 }  // namespace cavum::cohort

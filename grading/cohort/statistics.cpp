@@ -62,7 +62,9 @@ double cronbach_alpha(const Matrix& m) {
   return cronbach_alpha(m[0].size(), parts, variance(sums(m)));
 }
 
-double standard_error(double sd_of_sum, double alpha) { return sd_of_sum * std::sqrt(std::max(0.0, 1 - alpha)); }
+double standard_error(double sd_of_sum, double alpha) {
+  return sd_of_sum * std::sqrt(std::max(0.0, 1 - alpha));
+}
 
 std::vector<double> discrimination(const Matrix& m) {
   require_table(m);
@@ -91,7 +93,8 @@ Icc intraclass_correlation(const Matrix& m) {
     const double d = mean(column(m, c)) - grand;
     judges += n * d * d;
   }
-  const double bms = rows / (n - 1), jms = judges / (k - 1), ems = (all - rows - judges) / ((n - 1) * (k - 1));
+  const double bms = rows / (n - 1), jms = judges / (k - 1),
+               ems = (all - rows - judges) / ((n - 1) * (k - 1));
   require(bms > 0, msg("needs objects that differ"));
   Icc out;
   out.single_random = (bms - ems) / (bms + (k - 1) * ems + k * (jms - ems) / n);
@@ -104,7 +107,8 @@ Icc intraclass_correlation(const Matrix& m) {
 double weighted_kappa(const Matrix& counts, const Matrix& weights) {
   require_table(counts);
   require_table(weights);
-  require(counts.size() == counts[0].size() && weights.size() == counts.size() && weights[0].size() == counts.size(),
+  require(counts.size() == counts[0].size() && weights.size() == counts.size() &&
+              weights[0].size() == counts.size(),
           msg("needs square tables of one size"));
   const auto by_first = sums(counts);
   const double n = std::accumulate(by_first.begin(), by_first.end(), 0.0);
@@ -114,7 +118,8 @@ double weighted_kappa(const Matrix& counts, const Matrix& weights) {
     for (std::size_t j = 0; j < counts.size(); ++j) {
       const auto by_second = column(counts, j);
       observed += weights[i][j] * counts[i][j] / n;
-      expected += weights[i][j] * by_first[i] * std::accumulate(by_second.begin(), by_second.end(), 0.0) / (n * n);
+      expected += weights[i][j] * by_first[i] *
+                  std::accumulate(by_second.begin(), by_second.end(), 0.0) / (n * n);
     }
   require(expected > 0, msg("needs judges who use two categories at least"));
   return 1 - observed / expected;
@@ -155,19 +160,22 @@ Line fit_line(std::span<const double> x, std::span<const double> y) {
   return out;
 }
 
-double borderline_cut(std::span<const double> rating, std::span<const double> score, double borderline) {
+double borderline_cut(std::span<const double> rating, std::span<const double> score,
+                      double borderline) {
   const Line line = fit_line(rating, score);
   return line.intercept + line.slope * borderline;
 }
 
-GroupEffect group_effect(const std::vector<std::vector<double>>& groups, int shuffles, std::uint64_t seed) {
+GroupEffect group_effect(const std::vector<std::vector<double>>& groups, int shuffles,
+                         std::uint64_t seed) {
   std::vector<std::vector<double>> shuffled = groups;
   std::vector<double> all;
   for (const auto& g : groups) {
     require(!g.empty(), msg("needs one score in each group at least"));
     all.insert(all.end(), g.begin(), g.end());
   }
-  require(groups.size() >= 2 && all.size() > groups.size(), msg("needs two groups, and more scores than groups"));
+  require(groups.size() >= 2 && all.size() > groups.size(),
+          msg("needs two groups, and more scores than groups"));
   GroupEffect out;
   out.f = f_of(groups, out.share);
   Random random(seed);

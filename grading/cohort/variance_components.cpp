@@ -19,7 +19,8 @@ namespace {
 constexpr std::size_t k_max_facets = 5;
 
 /// Sum over groups of the square of their sum by their size.
-double sum_of_squares(const std::vector<std::uint32_t>& group, const std::vector<double>& size, std::span<const double> values) {
+double sum_of_squares(const std::vector<std::uint32_t>& group, const std::vector<double>& size,
+                      std::span<const double> values) {
   std::vector<double> sum(size.size());
   for (std::size_t i = 0; i < group.size(); ++i) sum[group[i]] += values[i];
   double total = 0;
@@ -28,7 +29,8 @@ double sum_of_squares(const std::vector<std::uint32_t>& group, const std::vector
 }
 
 /// How much of an effect of variance 1 stands in the sum of squares over these groups.
-double expected(const std::vector<std::uint32_t>& group, const std::vector<double>& size, const std::vector<std::uint32_t>& effect) {
+double expected(const std::vector<std::uint32_t>& group, const std::vector<double>& size,
+                const std::vector<std::uint32_t>& effect) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> both;
   for (std::size_t i = 0; i < group.size(); ++i) both[{group[i], effect[i]}] += 1;
   double total = 0;
@@ -40,8 +42,9 @@ double expected(const std::vector<std::uint32_t>& group, const std::vector<doubl
 std::string name_of(const StudyDesign& design, std::uint32_t e) {
   // A facet that never stands without another one is nested in it.
   const auto always_with = [&](std::size_t inner, std::size_t outer) {
-    return std::all_of(design.effects.begin(), design.effects.end(),
-                       [&](std::uint32_t other) { return (other >> inner & 1U) == 0 || (other >> outer & 1U) != 0; });
+    return std::all_of(design.effects.begin(), design.effects.end(), [&](std::uint32_t other) {
+      return (other >> inner & 1U) == 0 || (other >> outer & 1U) != 0;
+    });
   };
   std::string name;
   for (std::size_t f = 0; f < design.facets.size(); ++f) {
@@ -63,14 +66,16 @@ StudyDesign with_names(StudyDesign design) {
   return design;
 }
 
-/// The names of effects whose sums of squares depend on one another. Column k stands for effect k, the last for the mean.
+/// The names of effects whose sums of squares depend on one another. Column k stands for effect k,
+/// the last for the mean.
 List dependent_effects(const Eigen::MatrixXd& a, const std::vector<std::string>& names) {
   List list;
   for (std::size_t k = 0; k < names.size(); ++k) {
     std::vector<Eigen::Index> others;
     for (Eigen::Index other = 0; other < a.cols(); ++other)
       if (other != static_cast<Eigen::Index>(k)) others.push_back(other);
-    if (ScaledRows(a(Eigen::all, others)).rank() == ScaledRows(a).rank()) list.items.push_back(msg("{}", Term{names[k]}));
+    if (ScaledRows(a(Eigen::all, others)).rank() == ScaledRows(a).rank())
+      list.items.push_back(msg("{}", Term{names[k]}));
   }
   return list;
 }
@@ -79,29 +84,35 @@ List dependent_effects(const Eigen::MatrixXd& a, const std::vector<std::string>&
 
 StudyDesign crossed_design(std::vector<std::string> facets) {
   if (facets.size() < 2 || facets.size() > k_max_facets)
-    throw Error(msg("a study"), msg("needs one to four facets beside the candidates"), msg("name tasks, raters, stations"));
+    throw Error(msg("a study"), msg("needs one to four facets beside the candidates"),
+                msg("name tasks, raters, stations"));
   StudyDesign design{std::move(facets), {}, {}};
   const auto sets = static_cast<std::uint32_t>(1U << design.facets.size());
   for (std::uint32_t e = 1; e < sets; ++e) design.effects.push_back(e);
-  std::stable_sort(design.effects.begin(), design.effects.end(),
-                   [](std::uint32_t a, std::uint32_t b) { return std::popcount(a) < std::popcount(b); });
+  std::stable_sort(
+      design.effects.begin(), design.effects.end(),
+      [](std::uint32_t a, std::uint32_t b) { return std::popcount(a) < std::popcount(b); });
   return with_names(std::move(design));
 }
 
-StudyDesign nested_design(const std::string& persons, const std::string& outer, const std::string& inner) {
+StudyDesign nested_design(const std::string& persons, const std::string& outer,
+                          const std::string& inner) {
   return with_names({{persons, outer, inner}, {0b001, 0b010, 0b110, 0b011, 0b111}, {}});
 }
 
 namespace {
 
 std::vector<double> times(const Eigen::MatrixXd& matrix, std::span<const double> column) {
-  const Eigen::VectorXd out = matrix * Eigen::Map<const Eigen::VectorXd>(column.data(), matrix.cols());
+  const Eigen::VectorXd out =
+      matrix * Eigen::Map<const Eigen::VectorXd>(column.data(), matrix.cols());
   return {out.begin(), out.end()};
 }
 
 StudyDesign fitting(StudyDesign design, std::span<const StudyMark> marks) {
   for (const StudyMark& m : marks)
-    if (m.level.size() != design.facets.size()) throw Error(msg("a mark"), msg("has another number of conditions than the study has facets"), {});
+    if (m.level.size() != design.facets.size())
+      throw Error(msg("a mark"), msg("has another number of conditions than the study has facets"),
+                  {});
   return design;
 }
 
@@ -141,13 +152,16 @@ VarianceStudy::VarianceStudy(StudyDesign design, std::span<const StudyMark> mark
     size_.push_back(std::move(size));
   }
   if (!size_.empty() && size_.back().size() != marks_)
-    throw Error(msg("two marks"), msg("stand for the same candidate under the same conditions"), msg("keep one of them"));
+    throw Error(msg("two marks"), msg("stand for the same candidate under the same conditions"),
+                msg("keep one of them"));
   const std::size_t n = design_.effects.size();
   const std::vector<std::uint32_t> all(marks_, 0);
   const std::vector<double> all_size{static_cast<double>(marks_)};
   Eigen::MatrixXd a = Eigen::MatrixXd::Constant(n + 1, n + 1, static_cast<double>(marks_));
   for (std::size_t i = 0; i <= n; ++i)
-    for (std::size_t k = 0; k < n; ++k) a(i, k) = i < n ? expected(group_[i], size_[i], group_[k]) : expected(all, all_size, group_[k]);
+    for (std::size_t k = 0; k < n; ++k)
+      a(i, k) =
+          i < n ? expected(group_[i], size_[i], group_[k]) : expected(all, all_size, group_[k]);
   expected_.resize(n, n);
   for (std::size_t k = 0; k < n; ++k) {
     const std::vector<double> own = own_squares({a.col(k).begin(), a.col(k).end()});
@@ -155,7 +169,8 @@ VarianceStudy::VarianceStudy(StudyDesign design, std::span<const StudyMark> mark
   }
   auto inverse = ScaledRows(expected_).inverse();
   if (!inverse)
-    throw Error(StudyError::effects_not_apart, msg("these marks"), msg("cannot tell these effects apart: {}", dependent_effects(a, design_.names)),
+    throw Error(StudyError::effects_not_apart, msg("these marks"),
+                msg("cannot tell these effects apart: {}", dependent_effects(a, design_.names)),
                 msg("a study needs two conditions of each facet, and candidates who share them"));
   of_squares_ = std::move(*inverse);
   marking_ = Marking(design_, marks);
@@ -165,33 +180,42 @@ std::vector<double> VarianceStudy::own_squares(std::vector<double> sums) const {
   std::vector<double> own(design_.effects.size());
   std::vector<std::size_t> order(own.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return std::popcount(design_.effects[a]) < std::popcount(design_.effects[b]); });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::popcount(design_.effects[a]) < std::popcount(design_.effects[b]);
+  });
   for (const std::size_t i : order) {
     own[i] = sums[i] - sums.back();
     for (const std::size_t k : order)
-      if (k != i && (design_.effects[i] & design_.effects[k]) == design_.effects[k]) own[i] -= own[k];
+      if (k != i && (design_.effects[i] & design_.effects[k]) == design_.effects[k])
+        own[i] -= own[k];
   }
   return own;
 }
 
 std::vector<double> VarianceStudy::squares(std::span<const double> values) const {
   const double middle = mean(values);
-  std::vector<double> from_middle(values.begin(), values.end());  // the sums of squares then lose no digits
+  std::vector<double> from_middle(values.begin(),
+                                  values.end());  // the sums of squares then lose no digits
   for (double& v : from_middle) v -= middle;
   std::vector<double> sums;
-  for (std::size_t i = 0; i < group_.size(); ++i) sums.push_back(sum_of_squares(group_[i], size_[i], from_middle));
+  for (std::size_t i = 0; i < group_.size(); ++i)
+    sums.push_back(sum_of_squares(group_[i], size_[i], from_middle));
   sums.push_back(0);
   return own_squares(std::move(sums));
 }
 
-std::vector<double> VarianceStudy::expected_squares(std::span<const double> variance) const { return times(expected_, variance); }
-std::vector<double> VarianceStudy::variances_of(std::span<const double> squares) const { return times(of_squares_, squares); }
+std::vector<double> VarianceStudy::expected_squares(std::span<const double> variance) const {
+  return times(expected_, variance);
+}
+std::vector<double> VarianceStudy::variances_of(std::span<const double> squares) const {
+  return times(of_squares_, squares);
+}
 
 VarianceComponents VarianceStudy::estimate(std::span<const double> values) const {
   const double middle = mean(values);
   double mean_square = 0;
-  for (const double v : values) mean_square += (v - middle) * (v - middle) / static_cast<double>(marks_);
+  for (const double v : values)
+    mean_square += (v - middle) * (v - middle) / static_cast<double>(marks_);
   const double rounding = 1e-12 * mean_square + 1e-24 * middle * middle;
   VarianceComponents found{variances_of(squares(values)), middle};
   for (double& v : found.variance)
@@ -214,8 +238,8 @@ std::vector<double> VarianceStudy::draw(const VarianceComponents& from, std::uin
 namespace {
 
 /// `fixed`: effects that are the same in every circuit.
-Dependability dependable(const StudyDesign& design, const VarianceComponents& components, const MarkShares& shares, const std::vector<bool>& fixed,
-                         double persons) {
+Dependability dependable(const StudyDesign& design, const VarianceComponents& components,
+                         const MarkShares& shares, const std::vector<bool>& fixed, double persons) {
   Dependability d;
   for (std::size_t k = 0; k < design.effects.size(); ++k) {
     const double variance = std::max(0.0, components.variance[k]);
@@ -226,7 +250,9 @@ Dependability dependable(const StudyDesign& design, const VarianceComponents& co
     if (!fixed[k]) d.relative += std::max(0.0, own - common);
     d.of_the_mean += common + (own - common) / persons;
   }
-  const auto ratio = [&](double error) { return d.universe + error > 0 ? d.universe / (d.universe + error) : 0.0; };
+  const auto ratio = [&](double error) {
+    return d.universe + error > 0 ? d.universe / (d.universe + error) : 0.0;
+  };
   d.g = ratio(d.relative);
   d.phi = ratio(d.absolute);
   d.relative_sem = std::sqrt(d.relative);
@@ -236,11 +262,15 @@ Dependability dependable(const StudyDesign& design, const VarianceComponents& co
 
 }  // namespace
 
-Dependability dependability(const StudyDesign& design, const VarianceComponents& components, const CircuitPlan& plan, double persons) {
+Dependability dependability(const StudyDesign& design, const VarianceComponents& components,
+                            const CircuitPlan& plan, double persons) {
   if (plan.conditions.size() + 1 != design.facets.size())
-    throw Error(msg("the plan of a circuit"), msg("has another number of facets than the study"), {});
+    throw Error(msg("the plan of a circuit"), msg("has another number of facets than the study"),
+                {});
   for (const double n : plan.conditions)
-    if (!(n >= 1)) throw Error(msg("the plan of a circuit"), msg("has fewer than one condition of a facet"), msg("plan at least one"));
+    if (!(n >= 1))
+      throw Error(msg("the plan of a circuit"), msg("has fewer than one condition of a facet"),
+                  msg("plan at least one"));
   MarkShares shares;
   std::vector<bool> fixed;
   for (const std::uint32_t e : design.effects) {
@@ -258,7 +288,8 @@ Dependability dependability(const StudyDesign& design, const VarianceComponents&
   return dependable(design, components, shares, fixed, persons);
 }
 
-Dependability dependability(const StudyDesign& design, const VarianceComponents& components, const MarkShares& shares, double persons) {
+Dependability dependability(const StudyDesign& design, const VarianceComponents& components,
+                            const MarkShares& shares, double persons) {
   std::vector<bool> fixed;
   for (const std::uint32_t e : design.effects) fixed.push_back(e == 1U);
   return dependable(design, components, shares, fixed, persons);
@@ -272,11 +303,13 @@ void require_differences(const StudyDesign& design, const VarianceComponents& co
   };
   if (there(true)) return;
   if (!there(false))
-    throw Error(StudyError::all_alike, msg("these marks"), msg("are all alike: nothing varies, and nothing tells how dependable they are"),
+    throw Error(StudyError::all_alike, msg("these marks"),
+                msg("are all alike: nothing varies, and nothing tells how dependable they are"),
                 msg("study marks that differ"));
-  throw Error(StudyError::conditions_alone, msg("these marks"),
-              msg("differ by their conditions alone: no variance is of the candidates, and nothing tells how dependable theirs are"),
-              msg("study candidates who differ"));
+  throw Error(
+      StudyError::conditions_alone, msg("these marks"),
+      msg("differ by their conditions alone: no variance is of the candidates, and nothing tells how dependable theirs are"),
+      msg("study candidates who differ"));
 }
 
 CutDecision cut_decision(const Dependability& d, double mean_mark, double cut) {
@@ -306,18 +339,20 @@ namespace {
 /// The middle 95 of 100 of what was found, and what was estimated.
 std::pair<double, double> middle_of(const std::vector<double>& found, double estimate) {
   constexpr double k_tail = 0.025;
-  return {std::min(estimate, quantile(found, k_tail)), std::max(estimate, quantile(found, 1 - k_tail))};
+  return {std::min(estimate, quantile(found, k_tail)),
+          std::max(estimate, quantile(found, 1 - k_tail))};
 }
 
 }  // namespace
 
-StudyRanges study_ranges(const VarianceStudy& study, const VarianceComponents& estimate, std::span<const MarkShares> circuits, int draws,
-                         std::uint64_t seed) {
+StudyRanges study_ranges(const VarianceStudy& study, const VarianceComponents& estimate,
+                         std::span<const MarkShares> circuits, int draws, std::uint64_t seed) {
   VarianceComponents drawn_from = estimate;
   for (double& v : drawn_from.variance) v = std::max(0.0, v);
   const StudyDesign& design = study.design();
   const double persons = study.marking().persons();
-  const std::vector<double> seen = study.expected_squares(estimate.variance), expected = study.expected_squares(drawn_from.variance);
+  const std::vector<double> seen = study.expected_squares(estimate.variance),
+                            expected = study.expected_squares(drawn_from.variance);
   const std::size_t effects = design.effects.size();
   std::vector<std::vector<double>> variance(effects), g(circuits.size()), phi(circuits.size());
   Random seeds(seed);
@@ -327,7 +362,8 @@ StudyRanges study_ranges(const VarianceStudy& study, const VarianceComponents& e
     std::vector<double> likely(effects);
     for (std::size_t k = 0; k < effects; ++k) {
       variance[k].push_back(estimated[k]);
-      // A chi square by its freedom where marks are balanced; else the squares may come out below 0, and their distance counts.
+      // A chi square by its freedom where marks are balanced; else the squares may come out below
+      // 0, and their distance counts.
       const bool ratio = seen[k] >= 0 && expected[k] > 0 && again[k] > 0;
       likely[k] = ratio ? seen[k] * expected[k] / again[k] : seen[k] - (again[k] - expected[k]);
     }

@@ -1,4 +1,5 @@
-// Finds the moments and facts behind the points that one criterion lost. Which of them a measure has is said in scenarios/file/measures_table.inc.
+// Finds the moments and facts behind the points that one criterion lost. Which of them a measure
+// has is said in scenarios/file/measures_table.inc.
 #pragma once
 
 #include <functional>
@@ -41,7 +42,8 @@ namespace cavum::grading {
 class LossFinder {
  public:
   /// All of them must outlive it; `why` is what it writes to.
-  LossFinder(const GradeInput& input, const Result& result, const scenarios::CriterionSpec& spec, Why& why);
+  LossFinder(const GradeInput& input, const Result& result, const scenarios::CriterionSpec& spec,
+             Why& why);
   /// The moments of the criterion's measure, and what points they leave unsaid.
   void find();
 
@@ -50,23 +52,28 @@ class LossFinder {
 #undef DECLARED
 
  private:
-  void fact(Facts facts, std::optional<double> amount = {}, const std::string& unit = "", const Trace& t = {}, double bound = 0);
+  void fact(Facts facts, std::optional<double> amount = {}, const std::string& unit = "",
+            const Trace& t = {}, double bound = 0);
   /// Points that a value of the metric is worth.
   [[nodiscard]] double points_at(double value) const;
   void removed_moments(std::vector<WhyItem> items);
   /// By parts of leaves, as the zones' volumes are counted.
   [[nodiscard]] std::vector<WhyItem> in_zones(const std::vector<scenarios::Zone>& zones) const;
-  [[nodiscard]] std::vector<WhyItem> whole_leaves(const std::function<bool(const RemovedAt&)>& counts) const;
+  [[nodiscard]] std::vector<WhyItem> whole_leaves(
+      const std::function<bool(const RemovedAt&)>& counts) const;
   /// `points`: what is lost by it altogether.
   void missed(double points);
   void walls(std::size_t first, std::size_t end, std::optional<scenarios::WallFigure> figure);
   enum class Extent : std::uint8_t { length, width, depth };
-  void shape(Extent extent, std::optional<double> found, double wanted, std::optional<double> error);
+  void shape(Extent extent, std::optional<double> found, double wanted,
+             std::optional<double> error);
   void pressed_above(double force);
   void leave_out(const WhyItem& item);
   void list_largest(std::vector<WhyItem> items);
   void value_and_work();
-  [[nodiscard]] const TickRecord& record(std::int64_t tick) const { return in_.records[static_cast<std::size_t>(tick)]; }
+  [[nodiscard]] const TickRecord& record(std::int64_t tick) const {
+    return in_.records[static_cast<std::size_t>(tick)];
+  }
 
   const GradeInput& in_;
   const Result& r_;

@@ -74,12 +74,14 @@ std::string measures_page() {
   for (const auto& listed : scenarios::measures()) {
     if (!listed.tissue.empty() && tissues) continue;
     tissues = tissues || !listed.tissue.empty();
-    const scenarios::Measure m = listed.tissue.empty() ? listed : scenarios::tissue_measure("TISSUE");
+    const scenarios::Measure m =
+        listed.tissue.empty() ? listed : scenarios::tissue_measure("TISSUE");
     const char* ends = m.most != nullptr ? m.most->words : m.tissue.empty() ? "" : "the tissue";
     out << "| " << code(m.name) << " | " << m.unit << " | " << better_words(m.better) << " | "
-        << (m.judges == scenarios::Judges::work ? "work" : "care") << " | " << ends << " | " << m.words << " | "
-        << english_text(msg("{}", scenarios::counts_text(m.counts))) << " | " << needs_words(m.needs) << " | " << code(json_place(m)) << " | "
-        << loss_list_of(m).words << " |\n";
+        << (m.judges == scenarios::Judges::work ? "work" : "care") << " | " << ends << " | "
+        << m.words << " | " << english_text(msg("{}", scenarios::counts_text(m.counts))) << " | "
+        << needs_words(m.needs) << " | " << code(json_location(m)) << " | " << loss_list_of(m).words
+        << " |\n";
   }
   return out.str();
 }

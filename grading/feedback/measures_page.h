@@ -5,7 +5,8 @@
 
 namespace cavum::grading {
 
-/// Markdown: one row for each measure of scenarios/file/measures.h, one for all tissues; docs/measures.md.
+/// Markdown: one row for each measure of scenarios/file/measures.h, one for all tissues;
+/// docs/measures.md.
 [[nodiscard]] std::string measures_page();
 
 }  // namespace cavum::grading

@@ -8,7 +8,8 @@
 
 namespace cavum::grading {
 
-Why why(const GradeInput& input, const Result& result, const scenarios::RubricSpec& rubric, const std::string& criterion_id) {
+Why why(const GradeInput& input, const Result& result, const scenarios::RubricSpec& rubric,
+        const std::string& criterion_id) {
   Why w;
   List known;
   for (std::size_t i = 0; i < rubric.criteria.size(); ++i) {
@@ -20,10 +21,12 @@ Why why(const GradeInput& input, const Result& result, const scenarios::RubricSp
     w.zero = spec.zero;
     LossFinder finder(input, result, spec, w);
     finder.find();
-    std::stable_sort(w.items.begin(), w.items.end(), [](const WhyItem& a, const WhyItem& b) { return a.tick < b.tick; });
+    std::stable_sort(w.items.begin(), w.items.end(),
+                     [](const WhyItem& a, const WhyItem& b) { return a.tick < b.tick; });
     return w;
   }
-  throw Error("--why", msg("the rubric has no criterion '{}'", criterion_id), msg("use one of: {}", known));
+  throw Error("--why", msg("the rubric has no criterion '{}'", criterion_id),
+              msg("use one of: {}", known));
 }
 
 }  // namespace cavum::grading

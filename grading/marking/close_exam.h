@@ -1,4 +1,5 @@
-// The end of every exam, whoever gave its input: what was recorded is graded, and the session is sealed with tooth and result.
+// The end of every exam, whoever gave its input: what was recorded is graded, and the session is
+// sealed with tooth and result.
 #pragma once
 
 #include <memory>
@@ -18,8 +19,9 @@ struct ClosedExam {
   Result result;
 };
 
-/// `exam` is over. Throws Error when it cannot be graded or sealed (DatabaseError: the disk refuses; make room or move the recorder, and call again);
-/// the session then stays open and can be resumed.
+/// `exam` is over. Throws Error when it cannot be graded or sealed (DatabaseError: the disk
+/// refuses; make room or move the recorder, and call again); the session then stays open and can be
+/// resumed.
 [[nodiscard]] ClosedExam grade_and_close(scenarios::Exam& exam);
 
 }  // namespace cavum::grading

@@ -35,10 +35,12 @@ ExamContext::ExamContext(Tooth tooth_before, scenarios::ZoneMap zones_of_it, Kno
       known(tooth, apart ? apart->own : tooth) {}
 
 ExamContexts::ExamContexts(const scenarios::ExamSetup& exam) {
-  by_content_[content_of(exam.session)] = {std::make_shared<const ExamContext>(exam.tooth, exam.zones), ++asked_};
+  by_content_[content_of(exam.session)] = {
+      std::make_shared<const ExamContext>(exam.tooth, exam.zones), ++asked_};
 }
 
-std::shared_ptr<const ExamContext> ExamContexts::of(const scenarios::ExamTask& task, const std::string& where) {
+std::shared_ptr<const ExamContext> ExamContexts::of(const scenarios::ExamTask& task,
+                                                    const std::string& where) {
   const std::string content = content_of(task.session);
   const std::lock_guard lock(mutex_);
   Kept& kept = by_content_[content];
@@ -46,8 +48,10 @@ std::shared_ptr<const ExamContext> ExamContexts::of(const scenarios::ExamTask& t
     try {
       KnownFits fits;
       Tooth tooth = load_tooth_like(task.session.tooth, where + ": tooth", nullptr, &fits);
-      scenarios::ZoneMap zones = scenarios::build_zones_of_exam(task.scenario, tooth, task.session.landmarks_json, where);
-      kept.ground = std::make_shared<const ExamContext>(std::move(tooth), std::move(zones), std::move(fits));
+      scenarios::ZoneMap zones =
+          scenarios::build_zones_of_exam(task.scenario, tooth, task.session.landmarks_json, where);
+      kept.ground =
+          std::make_shared<const ExamContext>(std::move(tooth), std::move(zones), std::move(fits));
     } catch (...) {
       by_content_.erase(content);
       throw;
@@ -56,8 +60,9 @@ std::shared_ptr<const ExamContext> ExamContexts::of(const scenarios::ExamTask& t
   kept.asked = ++asked_;
   auto ground = kept.ground;
   if (by_content_.size() > k_kept)
-    by_content_.erase(
-        std::min_element(by_content_.begin(), by_content_.end(), [](const auto& a, const auto& b) { return a.second.asked < b.second.asked; }));
+    by_content_.erase(std::min_element(
+        by_content_.begin(), by_content_.end(),
+        [](const auto& a, const auto& b) { return a.second.asked < b.second.asked; }));
   return ground;
 }
 

@@ -1,5 +1,6 @@
-// What all who sit one scenario on one tooth share: the tooth as it is read, and the scenario's zones in it. Both take longer to make than an exam to
-// mark, so whoever marks a class makes them once.
+// What all who sit one scenario on one tooth share: the tooth as it is read, and the scenario's
+// zones in it. Both take longer to make than an exam to mark, so whoever marks a class makes them
+// once.
 #pragma once
 
 #include <map>
@@ -26,14 +27,16 @@ struct ExamContext {
   mutable KnownTooth known;
 };
 
-/// Keeps the last few grounds that were asked for. Any number of threads may ask: one makes a ground, those who want the same wait for it.
+/// Keeps the last few grounds that were asked for. Any number of threads may ask: one makes a
+/// ground, those who want the same wait for it.
 class ExamContexts {
  public:
   ExamContexts() = default;
   /// Begins with that of an exam that was made ready here.
   explicit ExamContexts(const scenarios::ExamSetup& exam);
   /// Throws Error when the tooth cannot be read or the zones do not fit; `where` names it.
-  [[nodiscard]] std::shared_ptr<const ExamContext> of(const scenarios::ExamTask& task, const std::string& where);
+  [[nodiscard]] std::shared_ptr<const ExamContext> of(const scenarios::ExamTask& task,
+                                                      const std::string& where);
 
  private:
   struct Kept {

@@ -1,5 +1,6 @@
-// Grades an exam: from the tooth before and after, the motion and the scenario's zones to a Result. Needs
-// no physics, so an old recording can be graded again for ever; the same input gives the same result.
+// Grades an exam: from the tooth before and after, the motion and the scenario's zones to a Result.
+// Needs no physics, so an old recording can be graded again for ever; the same input gives the same
+// result.
 #pragma once
 
 #include "grading/measures/grade_input.h"

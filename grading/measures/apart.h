@@ -1,5 +1,6 @@
-// A tooth taken apart from what stands beside it, before and after the exam: all that is measured of the cavity is measured on the tooth alone, as if
-// it stood alone; what happened to its neighbours and the gum is measured by itself (beside.h).
+// A tooth taken apart from what stands beside it, before and after the exam: all that is measured
+// of the cavity is measured on the tooth alone, as if it stood alone; what happened to its
+// neighbours and the gum is measured by itself (adjacent.h).
 #pragma once
 
 #include <memory>
@@ -7,7 +8,7 @@
 #include <vector>
 
 #include "engine/session/session_reader.h"
-#include "engine/tooth/beside.h"
+#include "engine/tooth/adjacent.h"
 
 namespace cavum::grading {
 
@@ -25,6 +26,7 @@ struct WorkApart {
   Octree after;                    ///< of the tooth alone
   std::vector<RemovedAt> removed;  ///< of its own tissues
 };
-[[nodiscard]] WorkApart take_apart(const ToothApart& tooth, const Octree& after, std::span<const RemovedAt> removed);
+[[nodiscard]] WorkApart take_apart(const ToothApart& tooth, const Octree& after,
+                                   std::span<const RemovedAt> removed);
 
 }  // namespace cavum::grading

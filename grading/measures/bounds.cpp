@@ -27,7 +27,8 @@ double p95_of(std::vector<double> values) {
 double extreme_mean(const WallValues& v, double sign) {
   std::vector<double> doubtful = v.own;
   doubtful.insert(doubtful.end(), v.of_others.begin(), v.of_others.end());
-  std::sort(doubtful.begin(), doubtful.end(), [sign](double a, double b) { return sign * a > sign * b; });
+  std::sort(doubtful.begin(), doubtful.end(),
+            [sign](double a, double b) { return sign * a > sign * b; });
   double sum = 0;
   for (const double value : v.sure) sum += value;
   auto n = static_cast<double>(v.sure.size());
@@ -52,9 +53,11 @@ double share_bound_percent(const BoundedVolume& in, const BoundedVolume& missed)
   return 100 * std::max(share(more(in), less(missed)) - now, now - share(less(in), more(missed)));
 }
 
-double dice_bound(const BoundedVolume& in, const BoundedVolume& missed, const BoundedVolume& beyond) noexcept {
+double dice_bound(const BoundedVolume& in, const BoundedVolume& missed,
+                  const BoundedVolume& beyond) noexcept {
   const double now = share(2 * in.mm3, missed.mm3 + beyond.mm3);
-  return std::max(share(2 * more(in), less(missed) + less(beyond)) - now, now - share(2 * less(in), more(missed) + more(beyond)));
+  return std::max(share(2 * more(in), less(missed) + less(beyond)) - now,
+                  now - share(2 * less(in), more(missed) + more(beyond)));
 }
 
 double mean_bound(const WallValues& v) {

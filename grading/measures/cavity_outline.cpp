@@ -9,7 +9,8 @@
 namespace cavum::grading {
 namespace {
 
-/// How far inside an area each column's topmost leaf lies (leaves, negative outside), over a box of columns.
+/// How far inside an area each column's topmost leaf lies (leaves, negative outside), over a box of
+/// columns.
 struct TopArea {
   int x0, y0, nx, ny;
   std::vector<double> inside;       // x fastest
@@ -19,28 +20,35 @@ struct TopArea {
   }
 };
 
-/// The furthest of a border known on parallel lines one apart. Between two lines it may run up to a corner: where the straight
-/// continuations from both sides meet, but half a leaf beyond the lines at most.
+/// The furthest of a border known on parallel lines one apart. Between two lines it may run up to a
+/// corner: where the straight continuations from both sides meet, but half a leaf beyond the lines
+/// at most.
 double furthest(const std::vector<double>& border) {
   constexpr double k_none = -1e9;
   double best = k_none;
   const auto n = border.size();
   for (std::size_t i = 0; i < n; ++i) {
     best = std::max(best, border[i]);
-    if (i == 0 || i + 2 >= n || std::min({border[i - 1], border[i], border[i + 1], border[i + 2]}) == k_none) continue;
+    if (i == 0 || i + 2 >= n ||
+        std::min({border[i - 1], border[i], border[i + 1], border[i + 2]}) == k_none)
+      continue;
     const double rise = border[i] - border[i - 1], fall = border[i + 1] - border[i + 2];
     if (!(rise + fall > 0)) continue;
     const double at = (border[i + 1] - border[i] + fall) / (rise + fall);  // from line i on
-    if (at > 0 && at < 1) best = std::max(best, std::min(border[i] + rise * at, std::max(border[i], border[i + 1]) + 0.5));
+    if (at > 0 && at < 1)
+      best =
+          std::max(best, std::min(border[i] + rise * at, std::max(border[i], border[i + 1]) + 0.5));
   }
   return best;
 }
 
-/// Where the area's border crosses the rows and files of the columns' centres: interpolated along them, at the leaf's face beside the tooth.
+/// Where the area's border crosses the rows and files of the columns' centres: interpolated along
+/// them, at the leaf's face beside the tooth.
 Extent extent_of(const TopArea& area) {
   Extent e;
   const auto along = [&](int n, int lines, auto index, double first, double& low, double& high) {
-    std::vector<double> lows(static_cast<std::size_t>(lines), -1e9), highs = lows;  // lows with their sign turned
+    std::vector<double> lows(static_cast<std::size_t>(lines), -1e9),
+        highs = lows;  // lows with their sign turned
     for (int line = 0; line < lines; ++line)
       for (int i = 0; i < n; ++i) {
         const double v = area.inside[index(i, line)];
@@ -59,16 +67,20 @@ Extent extent_of(const TopArea& area) {
     high = furthest(highs);
   };
   along(
-      area.nx, area.ny, [&](int i, int line) { return area.at(i, line); }, area.x0, e.low_x, e.high_x);
+      area.nx, area.ny, [&](int i, int line) { return area.at(i, line); }, area.x0, e.low_x,
+      e.high_x);
   along(
-      area.ny, area.nx, [&](int i, int line) { return area.at(line, i); }, area.y0, e.low_y, e.high_y);
+      area.ny, area.nx, [&](int i, int line) { return area.at(line, i); }, area.y0, e.low_y,
+      e.high_y);
   return e;
 }
 
-/// The outermost solid leaf of a column, its place in it negative without tooth: from above by the relief, from a side by going in.
+/// The outermost solid leaf of a column, its place in it negative without tooth: from above by the
+/// relief, from a side by going in.
 class Tops {
  public:
-  explicit Tops(const GradeInput& input) : tree_(input.before.octree), facing_(input.zones.facing()) {
+  explicit Tops(const GradeInput& input)
+      : tree_(input.before.octree), facing_(input.zones.facing()) {
     if (!facing_.lateral()) surface_ = scenarios::surface_relief(input.before);
   }
   /// In the tooth's leaves, of a column as `Facing::local` has it.
@@ -79,7 +91,9 @@ class Tops {
     }
     const int n = tree_.size().y;
     for (int i = 0; i < n; ++i)
-      if (const IVec3 leaf{x, facing_.side > 0 ? n - 1 - i : i, y}; tree_.is_solid(tree_.tissue(leaf))) return leaf;
+      if (const IVec3 leaf{x, facing_.side > 0 ? n - 1 - i : i, y};
+          tree_.is_solid(tree_.tissue(leaf)))
+        return leaf;
     return {};
   }
 
@@ -89,19 +103,23 @@ class Tops {
   scenarios::ColumnMap surface_;
 };
 
-/// The columns over all of the cut and all of the target, and one more on each side; each holds nothing yet.
+/// The columns over all of the cut and all of the target, and one more on each side; each holds
+/// nothing yet.
 TopArea area_around(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
   const scenarios::Facing facing = input.zones.facing();
   LeafBounds box;
   const auto hold = [&](IVec3 in_tooth) { box.add(facing.local(in_tooth)); };
-  for_each_removed(input.removed, removed, last_tick, [&](const RemovedAt& r) { hold(r.leaf.leaf()); });
+  for_each_removed(input.removed, removed, last_tick,
+                   [&](const RemovedAt& r) { hold(r.leaf.leaf()); });
   input.zones.for_each_target_leaf(hold);
-  return {box.low.x - 1, box.low.y - 1, box.high.x - box.low.x + 3, box.high.y - box.low.y + 3, {}, {}};
+  return {
+      box.low.x - 1, box.low.y - 1, box.high.x - box.low.x + 3, box.high.y - box.low.y + 3, {}, {}};
 }
 
 }  // namespace
 
-Outlines cavity_outlines(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
+Outlines cavity_outlines(const GradeInput& input, const RemovedMap& removed,
+                         std::int64_t last_tick) {
   const Tops tops(input);
   TopArea cut = area_around(input, removed, last_tick);
   TopArea target = cut, common = cut, either = cut;
@@ -109,7 +127,9 @@ Outlines cavity_outlines(const GradeInput& input, const RemovedMap& removed, std
     for (int x = 0; x < cut.nx; ++x) {
       const std::optional<IVec3> top = tops.at(cut.x0 + x, cut.y0 + y);
       const IVec3 leaf = top.value_or(IVec3{});
-      const double in_cut = !top ? -1.0 : removed.has(leaf) ? gone_by(input.after, leaf) : -stays_by(input.after, leaf);
+      const double in_cut = !top                ? -1.0
+                            : removed.has(leaf) ? gone_by(input.after, leaf)
+                                                : -stays_by(input.after, leaf);
       const double in_target = !top ? -1.0 : -input.zones.distance_mm(leaf) / input.zones.leaf_mm();
       cut.inside.push_back(in_cut);
       target.inside.push_back(in_target);

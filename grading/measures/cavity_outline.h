@@ -1,5 +1,6 @@
-// The outlines of cavity and target on the tooth's surface, seen from above: where each begins and ends, mesial to distal and buccal to lingual.
-// The borders lie where the distance passes zero between leaves, along lines across the topmost ones.
+// The outlines of cavity and target on the tooth's surface, seen from above: where each begins and
+// ends, mesial to distal and buccal to lingual. The borders lie where the distance passes zero
+// between leaves, along lines across the topmost ones.
 #pragma once
 
 #include "grading/measures/grade_input.h"
@@ -19,6 +20,7 @@ struct Extent {
 struct Outlines {
   Extent cut, target, common, either;
 };
-[[nodiscard]] Outlines cavity_outlines(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick);
+[[nodiscard]] Outlines cavity_outlines(const GradeInput& input, const RemovedMap& removed,
+                                       std::int64_t last_tick);
 
 }  // namespace cavum::grading

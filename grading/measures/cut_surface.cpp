@@ -21,7 +21,8 @@ struct Sample {
 /// Walls that a place may belong to: its own, and those within a leaf.
 unsigned walls_around(const scenarios::ZoneMap& zones, IVec3 leaf) {
   unsigned walls = 1u << static_cast<unsigned>(zones.wall(leaf));
-  for (const IVec3 step : scenarios::k_six_neighbours) walls |= 1u << static_cast<unsigned>(zones.wall(leaf + step));
+  for (const IVec3 step : scenarios::k_six_neighbours)
+    walls |= 1u << static_cast<unsigned>(zones.wall(leaf + step));
   return walls;
 }
 
@@ -29,7 +30,9 @@ WallMeasures summary(std::vector<Sample>& samples) {
   WallMeasures w;
   w.samples = samples.size();
   if (samples.empty()) return w;
-  std::stable_sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.deviation_mm < b.deviation_mm; });
+  std::stable_sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) {
+    return a.deviation_mm < b.deviation_mm;
+  });
   double sum = 0;
   for (const auto& s : samples) sum += s.deviation_mm;
   w.mean_mm = sum / static_cast<double>(samples.size());
@@ -53,7 +56,11 @@ struct WallSurface {
   void count(scenarios::Wall own, unsigned around, double deviation) {
     const auto w = static_cast<std::size_t>(own);
     for (std::size_t i = 0; i < scenarios::k_walls; ++i)
-      if ((around >> i & 1u) != 0) (i != w ? values[i].of_others : around == 1u << i ? values[i].sure : values[i].own).push_back(deviation);
+      if ((around >> i & 1u) != 0)
+        (i != w              ? values[i].of_others
+         : around == 1u << i ? values[i].sure
+                             : values[i].own)
+            .push_back(deviation);
   }
   /// A place of a side wall, for its taper; `normal` out of the solid.
   void lean(scenarios::Wall side, Vec3 place, Vec3 normal) {
@@ -66,8 +73,10 @@ struct WallSurface {
   }
 };
 
-/// One sample for each removed leaf with solid tissue left beside it: its place on the surface, and how far that lies from the target's.
-WallSurface sample_walls(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
+/// One sample for each removed leaf with solid tissue left beside it: its place on the surface, and
+/// how far that lies from the target's.
+WallSurface sample_walls(const GradeInput& input, const RemovedMap& removed,
+                         std::int64_t last_tick) {
   const scenarios::ZoneMap& zones = input.zones;
   const Octree& before = input.before.octree;
   const scenarios::Facing facing = zones.facing();
@@ -85,14 +94,17 @@ WallSurface sample_walls(const GradeInput& input, const RemovedMap& removed, std
     if (wall == scenarios::Wall::opening) return;
     surface.samples[static_cast<std::size_t>(wall)].push_back({deviation, r.tick, place});
     const Vec3 leans = facing.local(normal);
-    if (wall != scenarios::Wall::floor && std::fabs(leans.z) < 0.70710678118654752440) surface.lean(wall, facing.local(place), leans);
+    if (wall != scenarios::Wall::floor && std::fabs(leans.z) < 0.70710678118654752440)
+      surface.lean(wall, facing.local(place), leans);
   });
   return surface;
 }
 
-/// The removed hard leaf that lies furthest beyond the target, towards each wall; where the next one belongs to another wall and is gone as well,
-/// the face between them.
-std::array<Sample, scenarios::k_walls> furthest_removed(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
+/// The removed hard leaf that lies furthest beyond the target, towards each wall; where the next
+/// one belongs to another wall and is gone as well, the face between them.
+std::array<Sample, scenarios::k_walls> furthest_removed(const GradeInput& input,
+                                                        const RemovedMap& removed,
+                                                        std::int64_t last_tick) {
   std::array<Sample, scenarios::k_walls> furthest{};
   for_each_removed(input.removed, removed, last_tick, [&](const RemovedAt& r) {
     const IVec3 leaf = r.leaf.leaf();
@@ -102,15 +114,17 @@ std::array<Sample, scenarios::k_walls> furthest_removed(const GradeInput& input,
     double beyond = input.zones.distance_mm(leaf);
     for (const IVec3 step : scenarios::k_six_neighbours)
       if (const IVec3 next = leaf + step; input.zones.wall(next) != towards && removed.has(next))
-        beyond = std::max(beyond, 0.5 * (input.zones.distance_mm(leaf) + input.zones.distance_mm(next)));
+        beyond =
+            std::max(beyond, 0.5 * (input.zones.distance_mm(leaf) + input.zones.distance_mm(next)));
     if (beyond > best.deviation_mm) best = {beyond, r.tick, input.zones.centre_mm(leaf)};
   });
   return furthest;
 }
 
-/// The hard leaf of the target still standing that lies deepest inside it, from each wall. The cut surface alone does not show it: an island left in
-/// the middle covers the places around it.
-std::array<Sample, scenarios::k_walls> thickest_left(const GradeInput& input, const RemovedMap& removed) {
+/// The hard leaf of the target still standing that lies deepest inside it, from each wall. The cut
+/// surface alone does not show it: an island left in the middle covers the places around it.
+std::array<Sample, scenarios::k_walls> thickest_left(const GradeInput& input,
+                                                     const RemovedMap& removed) {
   const scenarios::ZoneMap& zones = input.zones;
   const Octree& before = input.before.octree;
   std::array<Sample, scenarios::k_walls> thickest{};
@@ -119,14 +133,16 @@ std::array<Sample, scenarios::k_walls> thickest_left(const GradeInput& input, co
     if (from == scenarios::Wall::opening || removed.has(leaf)) return;
     Sample& best = thickest[static_cast<std::size_t>(from)];
     const double deviation = zones.distance_mm(leaf);
-    if (deviation < best.deviation_mm && before.is_solid(before.tissue(leaf))) best = {deviation, -1, zones.centre_mm(leaf)};
+    if (deviation < best.deviation_mm && before.is_solid(before.tissue(leaf)))
+      best = {deviation, -1, zones.centre_mm(leaf)};
   });
   return thickest;
 }
 
-std::array<WallMeasures, scenarios::k_walls> wall_measures(const GradeInput& input, WallSurface& surface,
-                                                           const std::array<Sample, scenarios::k_walls>& furthest,
-                                                           const std::array<Sample, scenarios::k_walls>& thickest, double bound_mm) {
+std::array<WallMeasures, scenarios::k_walls> wall_measures(
+    const GradeInput& input, WallSurface& surface,
+    const std::array<Sample, scenarios::k_walls>& furthest,
+    const std::array<Sample, scenarios::k_walls>& thickest, double bound_mm) {
   std::array<WallMeasures, scenarios::k_walls> walls;
   for (std::size_t w = 0; w < scenarios::k_walls; ++w) {
     walls[w] = summary(surface.samples[w]);
@@ -138,7 +154,8 @@ std::array<WallMeasures, scenarios::k_walls> wall_measures(const GradeInput& inp
       walls[w].worst_over = {furthest[w].tick, furthest[w].place};
     }
     if (walls[w].worst_over.tick >= 0) {
-      const scenarios::Zone zone = input.zones.zone(input.before.octree.leaf_at(walls[w].worst_over.site_mm));
+      const scenarios::Zone zone =
+          input.zones.zone(input.before.octree.leaf_at(walls[w].worst_over.site_mm));
       walls[w].over_outside = zone == scenarios::Zone::none || zone == scenarios::Zone::protected_;
     }
     // a wall without a cut has no value
@@ -150,7 +167,8 @@ std::array<WallMeasures, scenarios::k_walls> wall_measures(const GradeInput& inp
   return walls;
 }
 
-/// Lowest place of the cut surface, mm, anywhere and under the target's leaves; 1e9 without a cut there.
+/// Lowest place of the cut surface, mm, anywhere and under the target's leaves; 1e9 without a cut
+/// there.
 struct Deepest {
   double anywhere_mm = 1e9, in_target_mm = 1e9;
 };
@@ -161,10 +179,14 @@ Deepest deepest_cut(const GradeInput& input, const RemovedMap& removed, std::int
   const IVec3 inwards = facing.in_tooth({0, 0, -1});
   for_each_removed(input.removed, removed, last_tick, [&](const RemovedAt& r) {
     const IVec3 leaf = r.leaf.leaf(), under = leaf + inwards;
-    const double down = after.is_solid(after.tissue(under)) ? gone_by(after, leaf) / (gone_by(after, leaf) + stays_by(after, under)) : 0.5;
-    const double bottom = facing.local(input.zones.centre_mm(leaf)).z - down * input.zones.leaf_mm();
+    const double down = after.is_solid(after.tissue(under))
+                            ? gone_by(after, leaf) / (gone_by(after, leaf) + stays_by(after, under))
+                            : 0.5;
+    const double bottom =
+        facing.local(input.zones.centre_mm(leaf)).z - down * input.zones.leaf_mm();
     deepest.anywhere_mm = std::min(deepest.anywhere_mm, bottom);
-    if (input.zones.zone(leaf) == scenarios::Zone::target) deepest.in_target_mm = std::min(deepest.in_target_mm, bottom);
+    if (input.zones.zone(leaf) == scenarios::Zone::target)
+      deepest.in_target_mm = std::min(deepest.in_target_mm, bottom);
   });
   return deepest;
 }
@@ -174,7 +196,8 @@ double target_bottom_mm(const scenarios::ZoneMap& zones) {
   const IVec3 inwards = facing.in_tooth({0, 0, -1});
   double bottom = zones.top_level_mm();
   zones.for_each_target_leaf([&](IVec3 leaf) {
-    const double inside = std::max(-zones.distance_mm(leaf), 0.01 * zones.leaf_mm()), below = zones.distance_mm(leaf + inwards);
+    const double inside = std::max(-zones.distance_mm(leaf), 0.01 * zones.leaf_mm()),
+                 below = zones.distance_mm(leaf + inwards);
     const double down = below < 0 ? 1.0 : inside / (inside + below);
     bottom = std::min(bottom, facing.local(zones.centre_mm(leaf)).z - down * zones.leaf_mm());
   });
@@ -191,29 +214,35 @@ void put_outline(ShapeMeasures& m, const Outlines& o, double leaf_mm) {
   if (o.common.empty()) return;
   m.length_error_mm = (o.either.length() - o.common.length()) * leaf_mm;
   m.width_error_mm = (o.either.width() - o.common.width()) * leaf_mm;
-  m.end_error = {{{(o.either.high_x - o.common.high_x) * leaf_mm, (o.cut.high_x - o.target.high_x) * leaf_mm},
-                  {(o.common.low_x - o.either.low_x) * leaf_mm, (o.target.low_x - o.cut.low_x) * leaf_mm},
-                  {(o.either.high_y - o.common.high_y) * leaf_mm, (o.cut.high_y - o.target.high_y) * leaf_mm},
-                  {(o.common.low_y - o.either.low_y) * leaf_mm, (o.target.low_y - o.cut.low_y) * leaf_mm}}};
+  m.end_error = {
+      {{(o.either.high_x - o.common.high_x) * leaf_mm, (o.cut.high_x - o.target.high_x) * leaf_mm},
+       {(o.common.low_x - o.either.low_x) * leaf_mm, (o.target.low_x - o.cut.low_x) * leaf_mm},
+       {(o.either.high_y - o.common.high_y) * leaf_mm, (o.cut.high_y - o.target.high_y) * leaf_mm},
+       {(o.common.low_y - o.either.low_y) * leaf_mm, (o.target.low_y - o.cut.low_y) * leaf_mm}}};
 }
 
-void put_depth(ShapeMeasures& m, const scenarios::ZoneMap& zones, const Deepest& cut, bool anything_removed) {
+void put_depth(ShapeMeasures& m, const scenarios::ZoneMap& zones, const Deepest& cut,
+               bool anything_removed) {
   const double target_bottom = target_bottom_mm(zones), opening = zones.opening_z_mm();
   m.target_depth_mm = opening - target_bottom;
   if (anything_removed) m.depth_mm = opening - cut.anywhere_mm;
   if (cut.in_target_mm < zones.top_level_mm())
-    m.depth_error_mm = std::max(target_bottom, std::min(opening, cut.in_target_mm)) - std::min(cut.anywhere_mm, target_bottom);
+    m.depth_error_mm = std::max(target_bottom, std::min(opening, cut.in_target_mm)) -
+                       std::min(cut.anywhere_mm, target_bottom);
 }
 
 }  // namespace
 
-ShapeMeasures measure_shape(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
+ShapeMeasures measure_shape(const GradeInput& input, const RemovedMap& removed,
+                            std::int64_t last_tick) {
   const double leaf_mm = input.zones.leaf_mm();
   ShapeMeasures m;
   m.facing = input.zones.facing();
-  m.bound_mm = leaf_mm + input.surface_bound_mm;  // half a leaf of the target's distance, half a leaf of the cut surface
+  m.bound_mm = leaf_mm + input.surface_bound_mm;  // half a leaf of the target's distance, half a
+                                                  // leaf of the cut surface
   WallSurface surface = sample_walls(input, removed, last_tick);
-  m.wall = wall_measures(input, surface, furthest_removed(input, removed, last_tick), thickest_left(input, removed), m.bound_mm);
+  m.wall = wall_measures(input, surface, furthest_removed(input, removed, last_tick),
+                         thickest_left(input, removed), m.bound_mm);
   put_outline(m, cavity_outlines(input, removed, last_tick), leaf_mm);
   put_depth(m, input.zones, deepest_cut(input, removed, last_tick), removed.count() > 0);
   if (surface.across > 0) m.taper_deg = atan_deg(surface.up / surface.across);

@@ -32,7 +32,9 @@ class Lattice {
   Lattice(const LeafBox& box, T value) : Lattice(box, std::vector<T>(leaves_of(box), value)) {}
   /// `values`: x fastest, one for each leaf.
   Lattice(const LeafBox& box, std::vector<T> values) : box_(box), at_(std::move(values)) {}
-  [[nodiscard]] bool holds(IVec3 leaf) const noexcept { return lies_in(leaf - box_.low, box_.size); }
+  [[nodiscard]] bool holds(IVec3 leaf) const noexcept {
+    return lies_in(leaf - box_.low, box_.size);
+  }
   /// Of a leaf that it holds.
   [[nodiscard]] T& operator[](IVec3 leaf) noexcept { return at_[index(leaf)]; }
   [[nodiscard]] const T& operator[](IVec3 leaf) const noexcept { return at_[index(leaf)]; }
@@ -40,7 +42,9 @@ class Lattice {
 
  private:
   [[nodiscard]] static std::size_t leaves_of(const LeafBox& box) { return cells_of(box.size); }
-  [[nodiscard]] std::size_t index(IVec3 leaf) const noexcept { return cell_index(leaf - box_.low, box_.size); }
+  [[nodiscard]] std::size_t index(IVec3 leaf) const noexcept {
+    return cell_index(leaf - box_.low, box_.size);
+  }
 
   LeafBox box_;
   std::vector<T> at_;

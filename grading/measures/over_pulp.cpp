@@ -3,26 +3,28 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/tooth/beside.h"
+#include "engine/tooth/adjacent.h"
 #include "engine/tooth/octree_edit.h"
-#include "grading/measures/place_blocks.h"
+#include "grading/measures/site_blocks.h"
 #include "grading/measures/solid_surface.h"
 
 namespace cavum::grading {
 namespace {
 
 /// The pulp's wall.
-PlaceBlocks wall_of_pulp(const Octree& before, const TissueSet& pulp) {
-  PlaceBlocks wall;
+SiteBlocks wall_of_pulp(const Octree& before, const TissueSet& pulp) {
+  SiteBlocks wall;
   Octree::Cursor cursor;
   before.for_each_cube([&](IVec3 at, int edge, std::uint8_t tissue) {
     if (!pulp[tissue]) return;
     for (int z = 0; z < edge; ++z)
       for (int y = 0; y < edge; ++y)
         for (int x = 0; x < edge; ++x) {
-          const bool at_face = x == 0 || y == 0 || z == 0 || x == edge - 1 || y == edge - 1 || z == edge - 1;
+          const bool at_face =
+              x == 0 || y == 0 || z == 0 || x == edge - 1 || y == edge - 1 || z == edge - 1;
           const IVec3 leaf = at + IVec3{x, y, z};
-          if (at_face && beside_solid(before, leaf, cursor)) wall.add(leaf, surface_by(before, leaf, cursor).at_mm);
+          if (at_face && beside_solid(before, leaf, cursor))
+            wall.add(leaf, surface_by(before, leaf, cursor).at_mm);
         }
   });
   return wall;
@@ -30,19 +32,21 @@ PlaceBlocks wall_of_pulp(const Octree& before, const TissueSet& pulp) {
 
 }  // namespace
 
-OverPulpMeasures measure_over_pulp(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
+OverPulpMeasures measure_over_pulp(const GradeInput& input, const RemovedMap& removed,
+                                   std::int64_t last_tick) {
   OverPulpMeasures m;
   m.bound_mm = input.zones.leaf_mm() + input.surface_bound_mm;
   const Octree& before = input.before.octree;
   const TissueSet pulp = tissues_of(input.before, TissueKind::pulp);
-  const PlaceBlocks wall = wall_of_pulp(before, pulp);
+  const SiteBlocks wall = wall_of_pulp(before, pulp);
   if (wall.empty()) return m;
   Octree::Cursor cursor, was;
   for (const auto& r : input.removed) {
     const IVec3 leaf = r.leaf.leaf();
     if (r.tick > last_tick || removed.tick(leaf) != r.tick) continue;
-    const bool lays_bare = std::any_of(std::begin(scenarios::k_six_neighbours), std::end(scenarios::k_six_neighbours),
-                                       [&](IVec3 step) { return pulp[before.tissue(leaf + step, was)]; });
+    const bool lays_bare =
+        std::any_of(std::begin(scenarios::k_six_neighbours), std::end(scenarios::k_six_neighbours),
+                    [&](IVec3 step) { return pulp[before.tissue(leaf + step, was)]; });
     if (pulp[r.leaf.tissue] || lays_bare) {
       m.dentin_mm = 0.0;
       m.thinnest = {r.tick, before.centre_mm(leaf)};

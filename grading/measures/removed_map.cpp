@@ -6,7 +6,8 @@ namespace cavum::grading {
 
 RemovedMap::RemovedMap(std::span<const RemovedAt> removed, std::int64_t last_tick) {
   std::vector<RemovedAt> counted;
-  std::copy_if(removed.begin(), removed.end(), std::back_inserter(counted), [&](const RemovedAt& r) { return r.tick <= last_tick; });
+  std::copy_if(removed.begin(), removed.end(), std::back_inserter(counted),
+               [&](const RemovedAt& r) { return r.tick <= last_tick; });
   box_ = box_around(counted, 0);
   tick_ = Lattice<std::int32_t>(box_, -1);
   for (const auto& r : counted) {

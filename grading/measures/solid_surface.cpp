@@ -11,7 +11,7 @@ bool beside_solid(const Octree& tree, IVec3 leaf, Octree::Cursor& cursor) {
                      [&](IVec3 step) { return tree.is_solid(tree.tissue(leaf + step, cursor)); });
 }
 
-SurfacePlace surface_by(const Octree& tree, IVec3 leaf, Octree::Cursor& cursor) {
+SurfacePosition surface_by(const Octree& tree, IVec3 leaf, Octree::Cursor& cursor) {
   const Vec3 centre = tree.centre_mm(leaf);
   const SurfaceSample s = tree.sample(centre, cursor);
   const double steep = length(s.gradient);
@@ -19,7 +19,11 @@ SurfacePlace surface_by(const Octree& tree, IVec3 leaf, Octree::Cursor& cursor) 
   return {centre - normal * std::clamp(s.distance_mm, -tree.leaf_mm(), tree.leaf_mm()), normal};
 }
 
-double gone_by(const Octree& after, IVec3 leaf) { return std::max(decode_distance(after.distance_code(leaf)), 0.01); }
-double stays_by(const Octree& after, IVec3 leaf) { return std::max(-decode_distance(after.distance_code(leaf)), 0.01); }
+double gone_by(const Octree& after, IVec3 leaf) {
+  return std::max(decode_distance(after.distance_code(leaf)), 0.01);
+}
+double stays_by(const Octree& after, IVec3 leaf) {
+  return std::max(-decode_distance(after.distance_code(leaf)), 0.01);
+}
 
 }  // namespace cavum::grading

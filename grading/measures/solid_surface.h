@@ -9,14 +9,14 @@ namespace cavum::grading {
 [[nodiscard]] bool beside_solid(const Octree& tree, IVec3 leaf, Octree::Cursor& cursor);
 
 /// A place on the surface; `normal` is unit, out of the solid, 0 where the distance does not say.
-struct SurfacePlace {
+struct SurfacePosition {
   Vec3 at_mm, normal;
 };
 /// The one nearest to a leaf's centre, at most a leaf from it.
-[[nodiscard]] SurfacePlace surface_by(const Octree& tree, IVec3 leaf, Octree::Cursor& cursor);
+[[nodiscard]] SurfacePosition surface_by(const Octree& tree, IVec3 leaf, Octree::Cursor& cursor);
 
-/// How far the surface lies from the centre of a leaf that is gone, or of one that stays: leaves, at least 0.01, on the right side even where the
-/// octree's distance says otherwise.
+/// How far the surface lies from the centre of a leaf that is gone, or of one that stays: leaves,
+/// at least 0.01, on the right side even where the octree's distance says otherwise.
 [[nodiscard]] double gone_by(const Octree& after, IVec3 leaf);
 [[nodiscard]] double stays_by(const Octree& after, IVec3 leaf);
 

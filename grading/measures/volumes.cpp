@@ -9,8 +9,8 @@
 namespace cavum::grading {
 namespace {
 
-/// A step of the octree's distance code, leaves. Less than that of a leaf is not left: a cut exactly along the target's
-/// surface removes all of the target.
+/// A step of the octree's distance code, leaves. Less than that of a leaf is not left: a cut
+/// exactly along the target's surface removes all of the target.
 constexpr double k_code = k_distance_band_leaves / k_distance_far;
 
 /// How much of a leaf, 0..1: all of it or nothing, or part by part.
@@ -22,16 +22,20 @@ struct Share {
   explicit Share(const scenarios::LeafParts& p) : all_or_nothing(false), parts(p) {}
 };
 
-/// Of a leaf at a border, what is not known of it: a half where leaves count whole. Where they count by parts, by the octree's own distance, volumes
-/// of known cavities at 80 poses are true to 0.008 of a leaf at each (tests/grading/marking/known_geometry_test.cpp), and four times that is
-/// promised; but where the cut and a zone's border pass through one leaf, a thin zone may be off by a fifth of it, and a quarter is promised.
+/// Of a leaf at a border, what is not known of it: a half where leaves count whole. Where they
+/// count by parts, by the octree's own distance, volumes of known cavities at 80 poses are true to
+/// 0.008 of a leaf at each (tests/grading/marking/known_geometry_test.cpp), and four times that is
+/// promised; but where the cut and a zone's border pass through one leaf, a thin zone may be off by
+/// a fifth of it, and a quarter is promised.
 constexpr double k_whole = 0.5, k_by_parts = 0.03, k_two_borders = 0.25;
 
-/// The leaf lies where what is beyond the target's bottom meets what is beyond its sides: leaves go whole to one or the other.
+/// The leaf lies where what is beyond the target's bottom meets what is beyond its sides: leaves go
+/// whole to one or the other.
 bool divided(const scenarios::ZoneMap& zones, IVec3 leaf) {
   const bool bottom = zones.wall(leaf) == scenarios::Wall::floor;
-  return std::any_of(std::begin(scenarios::k_six_neighbours), std::end(scenarios::k_six_neighbours),
-                     [&](IVec3 step) { return (zones.wall(leaf + step) == scenarios::Wall::floor) != bottom; });
+  return std::any_of(
+      std::begin(scenarios::k_six_neighbours), std::end(scenarios::k_six_neighbours),
+      [&](IVec3 step) { return (zones.wall(leaf + step) == scenarios::Wall::floor) != bottom; });
 }
 
 /// Of what a zone has in a leaf: `share` of it, of `total` that is gone.
@@ -40,7 +44,8 @@ double unsure_of(bool whole, double share, double total) {
   return total < 1.0 - k_code && share < total - k_code ? k_two_borders : k_by_parts;
 }
 
-/// Shares of one leaf's parts, each 0..1: removed, and in target and leeway and container together up to each level.
+/// Shares of one leaf's parts, each 0..1: removed, and in target and leeway and container together
+/// up to each level.
 class Shares {
  public:
   Shares(const GradeInput& input, const RemovedMap& removed, bool late)
@@ -48,26 +53,33 @@ class Shares {
   /// Leaves went after the end: everything counts whole.
   [[nodiscard]] bool late() const { return late_; }
   /// Of what a zone has in a leaf, what is not known: `share` of it, of `total` that is gone.
-  [[nodiscard]] double unsure(double share, double total) const { return unsure_of(late_, share, total) + input_.surface_mean_bound_mm / leaf_mm_; }
+  [[nodiscard]] double unsure(double share, double total) const {
+    return unsure_of(late_, share, total) + input_.surface_mean_bound_mm / leaf_mm_;
+  }
 
   [[nodiscard]] Share removed(IVec3 leaf, std::uint8_t tissue) const {
     const bool gone = removed_.has(leaf);
     if (late_ || !input_.before.octree.is_solid(tissue)) return Share(gone);
     const double centre = decode_distance(input_.after.distance_code(leaf, after_));
-    if (gone ? centre > scenarios::k_parts_reach_leaves : centre < -scenarios::k_parts_reach_leaves) return Share(gone);
-    scenarios::LeafParts parts = scenarios::leaf_parts(leaf, [&](IVec3 l) { return decode_distance(input_.after.distance_code(l, after_)); });
+    if (gone ? centre > scenarios::k_parts_reach_leaves : centre < -scenarios::k_parts_reach_leaves)
+      return Share(gone);
+    scenarios::LeafParts parts = scenarios::leaf_parts(
+        leaf, [&](IVec3 l) { return decode_distance(input_.after.distance_code(l, after_)); });
     for (double& p : parts) p = scenarios::share_beyond(p);
     if (gone) return Share(parts);
-    const scenarios::LeafParts before =
-        scenarios::leaf_parts(leaf, [&](IVec3 l) { return decode_distance(input_.before.octree.distance_code(l, before_)); });
-    for (std::size_t i = 0; i < scenarios::k_parts; ++i) parts[i] = std::min(parts[i], scenarios::share_beyond(-before[i]));
+    const scenarios::LeafParts before = scenarios::leaf_parts(leaf, [&](IVec3 l) {
+      return decode_distance(input_.before.octree.distance_code(l, before_));
+    });
+    for (std::size_t i = 0; i < scenarios::k_parts; ++i)
+      parts[i] = std::min(parts[i], scenarios::share_beyond(-before[i]));
     return Share(parts);
   }
   /// Part of the leaf that lies nearer to the target than `level_mm`, or inside it.
   [[nodiscard]] Share within(IVec3 leaf, double level_mm) const {
     const double centre = (level_mm - input_.zones.distance_mm(leaf)) / leaf_mm_;
     if (std::fabs(centre) > scenarios::k_parts_reach_leaves) return Share(centre > 0);
-    scenarios::LeafParts parts = scenarios::leaf_parts(leaf, [&](IVec3 l) { return (level_mm - input_.zones.distance_mm(l)) / leaf_mm_; });
+    scenarios::LeafParts parts = scenarios::leaf_parts(
+        leaf, [&](IVec3 l) { return (level_mm - input_.zones.distance_mm(l)) / leaf_mm_; });
     for (double& p : parts) p = scenarios::share_beyond(p);
     return Share(parts);
   }
@@ -99,10 +111,12 @@ struct Count {
   double leaves = 0, unsure = 0;
 };
 
-/// Gives each zone what of a leaf was removed in it, what of that is not known where it lies at a border, and what may as well belong to the sides
-/// in place of the bottom or the other way round, in leaves; returns the sum.
+/// Gives each zone what of a leaf was removed in it, what of that is not known where it lies at a
+/// border, and what may as well belong to the sides in place of the bottom or the other way round,
+/// in leaves; returns the sum.
 template <class Give>
-double share_out(const GradeInput& input, const Shares& shares, IVec3 leaf, std::uint8_t held, const Give& give) {
+double share_out(const GradeInput& input, const Shares& shares, IVec3 leaf, std::uint8_t held,
+                 const Give& give) {
   const scenarios::ZoneMap& zones = input.zones;
   const Share gone = shares.removed(leaf, held);
   const double total = sum(gone);
@@ -124,20 +138,25 @@ double share_out(const GradeInput& input, const Shares& shares, IVec3 leaf, std:
   const scenarios::ZoneSpec& spec = input.scenario.zones;
   const bool bottom = zones.wall(leaf) == scenarios::Wall::floor;
   const double leeway_mm = bottom ? spec.leeway.bottom_mm : spec.leeway.sides_mm;
-  const double container_mm = std::max(leeway_mm, bottom ? spec.container.bottom_mm : spec.container.sides_mm);
+  const double container_mm =
+      std::max(leeway_mm, bottom ? spec.container.bottom_mm : spec.container.sides_mm);
   const double leeway = leeway_mm > 0 ? sum_of_both(gone, shares.within(leaf, leeway_mm)) : target;
-  const double container = container_mm > 0 ? sum_of_both(gone, shares.within(leaf, container_mm)) : leeway;
+  const double container =
+      container_mm > 0 ? sum_of_both(gone, shares.within(leaf, container_mm)) : leeway;
   const bool other = container > target && divided(zones, leaf);
-  part(bottom ? scenarios::Zone::leeway_bottom : scenarios::Zone::leeway_sides, leeway - target, other);
-  part(bottom ? scenarios::Zone::container_bottom : scenarios::Zone::container_sides, container - leeway, other);
+  part(bottom ? scenarios::Zone::leeway_bottom : scenarios::Zone::leeway_sides, leeway - target,
+       other);
+  part(bottom ? scenarios::Zone::container_bottom : scenarios::Zone::container_sides,
+       container - leeway, other);
   part(scenarios::Zone::none, total - container);
   return total;
 }
 
-/// Calls `visit(leaf, tissue, tick)` for each removed leaf, then, with tick -1, for each solid one that stayed beside them and may be gone in part.
+/// Calls `visit(leaf, tissue, tick)` for each removed leaf, then, with tick -1, for each solid one
+/// that stayed beside them and may be gone in part.
 template <class Visit>
-void for_each_touched(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick, bool late, RemovedMap::Marks& seen,
-                      const Visit& visit) {
+void for_each_touched(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick,
+                      bool late, RemovedMap::Marks& seen, const Visit& visit) {
   std::vector<IVec3> beside;
   for_each_removed(input.removed, removed, last_tick, [&](const RemovedAt& r) {
     const IVec3 leaf = r.leaf.leaf();
@@ -151,22 +170,26 @@ void for_each_touched(const GradeInput& input, const RemovedMap& removed, std::i
   const Octree& before = input.before.octree;
   Octree::Cursor cursor;
   for (const IVec3 leaf : beside)
-    if (const std::uint8_t held = before.tissue(leaf, cursor); before.is_solid(held)) visit(leaf, held, std::int64_t{-1});
+    if (const std::uint8_t held = before.tissue(leaf, cursor); before.is_solid(held))
+      visit(leaf, held, std::int64_t{-1});
 }
 
 bool removed_late(const GradeInput& input, std::int64_t last_tick) {
-  return std::any_of(input.removed.begin(), input.removed.end(), [&](const RemovedAt& r) { return r.tick > last_tick; });
+  return std::any_of(input.removed.begin(), input.removed.end(),
+                     [&](const RemovedAt& r) { return r.tick > last_tick; });
 }
 
 /// Something that stayed lies beside the leaf, or it did itself.
 bool beside_what_stayed(const RemovedMap& removed, IVec3 leaf, std::int64_t tick) {
-  return tick < 0 || std::any_of(std::begin(scenarios::k_six_neighbours), std::end(scenarios::k_six_neighbours),
-                                 [&](IVec3 step) { return !removed.has(leaf + step); });
+  return tick < 0 ||
+         std::any_of(std::begin(scenarios::k_six_neighbours), std::end(scenarios::k_six_neighbours),
+                     [&](IVec3 step) { return !removed.has(leaf + step); });
 }
 
 /// When a leaf went; of one that is gone in part, when the last leaf beside it did.
 std::int64_t tick_of(const RemovedMap& removed, IVec3 leaf, std::int64_t tick) {
-  for (int i = 0; i < 27 && tick < 0; ++i) tick = std::max(tick, removed.tick(leaf + IVec3{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1}));
+  for (int i = 0; i < 27 && tick < 0; ++i)
+    tick = std::max(tick, removed.tick(leaf + IVec3{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1}));
   return tick;
 }
 
@@ -174,7 +197,10 @@ std::int64_t tick_of(const RemovedMap& removed, IVec3 leaf, std::int64_t tick) {
 
 bool on_border(const scenarios::ZoneMap& zones, const RemovedMap& removed, IVec3 leaf) {
   return std::any_of(std::begin(scenarios::k_six_neighbours), std::end(scenarios::k_six_neighbours),
-                     [&](IVec3 step) { return !removed.has(leaf + step) || zones.zone(leaf + step) != zones.zone(leaf); });
+                     [&](IVec3 step) {
+                       return !removed.has(leaf + step) ||
+                              zones.zone(leaf + step) != zones.zone(leaf);
+                     });
 }
 
 namespace {
@@ -186,34 +212,44 @@ struct RemovedCount {
   Count all;
 };
 
-/// Counts it by zone, wall and tissue; `v` gets the walls' parts and when each began. `seen` are the leaves that may be gone in part.
-RemovedCount count_removed(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick, const Shares& shares, RemovedMap::Marks& seen,
+/// Counts it by zone, wall and tissue; `v` gets the walls' parts and when each began. `seen` are
+/// the leaves that may be gone in part.
+RemovedCount count_removed(const GradeInput& input, const RemovedMap& removed,
+                           std::int64_t last_tick, const Shares& shares, RemovedMap::Marks& seen,
                            VolumeMeasures& v) {
   const scenarios::ZoneMap& zones = input.zones;
   RemovedCount count;
-  for_each_touched(input, removed, last_tick, shares.late(), seen, [&](IVec3 leaf, std::uint8_t held, std::int64_t tick) {
-    const bool edge = beside_what_stayed(removed, leaf, tick);
-    if (tick >= 0) {
-      count.tissue[held].leaves += 1;
-      count.tissue[held].unsure += on_border(zones, removed, leaf) ? k_whole : 0.0;
-      Trace& first = v.tissue_first[held];
-      if (first.tick < 0 || tick < first.tick) first = {tick, zones.centre_mm(leaf)};
-    }
-    const std::int64_t when = tick_of(removed, leaf, tick);
-    const auto wall = static_cast<std::size_t>(zones.wall(leaf));
-    if (Trace& last = v.target_last[wall]; tick > last.tick && zones.zone(leaf) == scenarios::Zone::target) last = {tick, zones.centre_mm(leaf)};
-    const double total = share_out(input, shares, leaf, held, [&](scenarios::Zone z, double share, double unsure, double others) {
-      const auto i = static_cast<std::size_t>(z);
-      count.zone[i].leaves += share;
-      count.zone[i].unsure += edge || share < 1 ? unsure : 0.0;
-      v.zone[i].bottom_or_sides_mm3 += others * zones.leaf_volume_mm3();
-      v.zone[i].by_wall_mm3[wall] += share * zones.leaf_volume_mm3();
-      Trace& first = v.zone[i].first;
-      if (first.tick < 0 || when < first.tick) first = {when, zones.centre_mm(leaf)};
-    });
-    count.all.leaves += total;
-    if (total > 0) count.all.unsure += edge || total < 1 ? shares.unsure(total, total) : 0.0;
-  });
+  for_each_touched(input, removed, last_tick, shares.late(), seen,
+                   [&](IVec3 leaf, std::uint8_t held, std::int64_t tick) {
+                     const bool edge = beside_what_stayed(removed, leaf, tick);
+                     if (tick >= 0) {
+                       count.tissue[held].leaves += 1;
+                       count.tissue[held].unsure += on_border(zones, removed, leaf) ? k_whole : 0.0;
+                       Trace& first = v.tissue_first[held];
+                       if (first.tick < 0 || tick < first.tick)
+                         first = {tick, zones.centre_mm(leaf)};
+                     }
+                     const std::int64_t when = tick_of(removed, leaf, tick);
+                     const auto wall = static_cast<std::size_t>(zones.wall(leaf));
+                     if (Trace& last = v.target_last[wall];
+                         tick > last.tick && zones.zone(leaf) == scenarios::Zone::target)
+                       last = {tick, zones.centre_mm(leaf)};
+                     const double total = share_out(
+                         input, shares, leaf, held,
+                         [&](scenarios::Zone z, double share, double unsure, double others) {
+                           const auto i = static_cast<std::size_t>(z);
+                           count.zone[i].leaves += share;
+                           count.zone[i].unsure += edge || share < 1 ? unsure : 0.0;
+                           v.zone[i].bottom_or_sides_mm3 += others * zones.leaf_volume_mm3();
+                           v.zone[i].by_wall_mm3[wall] += share * zones.leaf_volume_mm3();
+                           Trace& first = v.zone[i].first;
+                           if (first.tick < 0 || when < first.tick)
+                             first = {when, zones.centre_mm(leaf)};
+                         });
+                     count.all.leaves += total;
+                     if (total > 0)
+                       count.all.unsure += edge || total < 1 ? shares.unsure(total, total) : 0.0;
+                   });
   return count;
 }
 
@@ -223,10 +259,11 @@ struct TargetCount {
   Count missed;
 };
 
-/// Calls `visit(leaf, share, left)` for each leaf with a part in the target: that part, and what of it was left standing. `seen` are the leaves that
-/// may be gone in part.
+/// Calls `visit(leaf, share, left)` for each leaf with a part in the target: that part, and what of
+/// it was left standing. `seen` are the leaves that may be gone in part.
 template <class Visit>
-void for_each_in_target(const GradeInput& input, const RemovedMap& removed, const Shares& shares, const RemovedMap::Marks& seen, const Visit& visit) {
+void for_each_in_target(const GradeInput& input, const RemovedMap& removed, const Shares& shares,
+                        const RemovedMap::Marks& seen, const Visit& visit) {
   const scenarios::ZoneMap& zones = input.zones;
   const Octree& before = input.before.octree;
   const double reach_mm = scenarios::k_parts_reach_leaves * zones.leaf_mm();
@@ -240,7 +277,9 @@ void for_each_in_target(const GradeInput& input, const RemovedMap& removed, cons
     if (share < k_code) return;
     const bool untouched = !removed.has(leaf) && !seen.seen(leaf);
     LeftShare left;
-    left.leaves = untouched ? share : share - sum_of_both(in, shares.removed(leaf, before.tissue(leaf, cursor)));
+    left.leaves = untouched
+                      ? share
+                      : share - sum_of_both(in, shares.removed(leaf, before.tissue(leaf, cursor)));
     if (left.leaves < k_code) return visit(leaf, share, LeftShare{});
     bool edge = left.leaves < 1;
     for (const IVec3 step : scenarios::k_six_neighbours)
@@ -251,35 +290,44 @@ void for_each_in_target(const GradeInput& input, const RemovedMap& removed, cons
 }
 
 /// Counts both; `v` gets the walls' parts.
-TargetCount count_target(const GradeInput& input, const RemovedMap& removed, const Shares& shares, const RemovedMap::Marks& seen, VolumeMeasures& v) {
+TargetCount count_target(const GradeInput& input, const RemovedMap& removed, const Shares& shares,
+                         const RemovedMap::Marks& seen, VolumeMeasures& v) {
   const double leaf_mm3 = input.zones.leaf_volume_mm3();
   TargetCount count;
-  for_each_in_target(input, removed, shares, seen, [&](IVec3 leaf, double share, const LeftShare& left) {
-    const auto wall = static_cast<std::size_t>(input.zones.wall(leaf));
-    count.leaves += share;
-    v.target_by_wall_mm3[wall] += share * leaf_mm3;
-    count.missed.leaves += left.leaves;
-    count.missed.unsure += left.unsure;
-    v.missed_by_wall_mm3[wall] += left.leaves * leaf_mm3;
-    v.missed_bound_by_wall_mm3[wall] += left.unsure * leaf_mm3;
-  });
+  for_each_in_target(input, removed, shares, seen,
+                     [&](IVec3 leaf, double share, const LeftShare& left) {
+                       const auto wall = static_cast<std::size_t>(input.zones.wall(leaf));
+                       count.leaves += share;
+                       v.target_by_wall_mm3[wall] += share * leaf_mm3;
+                       count.missed.leaves += left.leaves;
+                       count.missed.unsure += left.unsure;
+                       v.missed_by_wall_mm3[wall] += left.leaves * leaf_mm3;
+                       v.missed_bound_by_wall_mm3[wall] += left.unsure * leaf_mm3;
+                     });
   return count;
 }
 
-BoundedVolume volume_of(const Count& c, double leaf_mm3) { return {c.leaves * leaf_mm3, c.unsure * leaf_mm3}; }
+BoundedVolume volume_of(const Count& c, double leaf_mm3) {
+  return {c.leaves * leaf_mm3, c.unsure * leaf_mm3};
+}
 
-void put_volumes(VolumeMeasures& v, const RemovedCount& removed, const TargetCount& target, const scenarios::ZoneMap& zones, bool whole) {
+void put_volumes(VolumeMeasures& v, const RemovedCount& removed, const TargetCount& target,
+                 const scenarios::ZoneMap& zones, bool whole) {
   const double leaf_mm3 = zones.leaf_volume_mm3();
-  for (std::size_t z = 0; z < scenarios::k_zones; ++z) v.zone[z].removed = volume_of(removed.zone[z], leaf_mm3);
+  for (std::size_t z = 0; z < scenarios::k_zones; ++z)
+    v.zone[z].removed = volume_of(removed.zone[z], leaf_mm3);
   for (std::size_t t = 0; t < 256; ++t) v.tissue[t] = volume_of(removed.tissue[t], leaf_mm3);
-  v.target = volume_of({target.leaves, (whole ? k_whole : k_by_parts) * static_cast<double>(zones.target_border_leaves())}, leaf_mm3);
+  v.target = volume_of({target.leaves, (whole ? k_whole : k_by_parts) *
+                                           static_cast<double>(zones.target_border_leaves())},
+                       leaf_mm3);
   v.removed = volume_of(removed.all, leaf_mm3);
   v.missed = volume_of(target.missed, leaf_mm3);
 }
 
 /// The share of the target that was removed, and Dice.
 void put_shares(VolumeMeasures& v, const RemovedCount& removed, const TargetCount& target) {
-  const BoundedVolume& in_target = v.zone[static_cast<std::size_t>(scenarios::Zone::target)].removed;
+  const BoundedVolume& in_target =
+      v.zone[static_cast<std::size_t>(scenarios::Zone::target)].removed;
   BoundedVolume beyond;
   for (std::size_t z = 0; z < scenarios::k_zones; ++z)
     if (z != static_cast<std::size_t>(scenarios::Zone::target)) {
@@ -294,31 +342,39 @@ void put_shares(VolumeMeasures& v, const RemovedCount& removed, const TargetCoun
 
 }  // namespace
 
-void for_each_removed_share(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick,
+void for_each_removed_share(const GradeInput& input, const RemovedMap& removed,
+                            std::int64_t last_tick,
                             const std::function<void(const RemovedShare&)>& visit) {
   const Shares shares(input, removed, removed_late(input, last_tick));
   RemovedMap::Marks seen = removed.marks();
-  for_each_touched(input, removed, last_tick, shares.late(), seen, [&](IVec3 leaf, std::uint8_t held, std::int64_t tick) {
-    const bool edge = beside_what_stayed(removed, leaf, tick);
-    const std::int64_t when = tick_of(removed, leaf, tick);
-    share_out(input, shares, leaf, held, [&](scenarios::Zone z, double share, double unsure, double others) {
-      const double leaf_mm3 = input.zones.leaf_volume_mm3();
-      visit({leaf, held, when, z, share * leaf_mm3, edge || share < 1 ? unsure * leaf_mm3 : 0.0, others * leaf_mm3});
-    });
-  });
+  for_each_touched(input, removed, last_tick, shares.late(), seen,
+                   [&](IVec3 leaf, std::uint8_t held, std::int64_t tick) {
+                     const bool edge = beside_what_stayed(removed, leaf, tick);
+                     const std::int64_t when = tick_of(removed, leaf, tick);
+                     share_out(
+                         input, shares, leaf, held,
+                         [&](scenarios::Zone z, double share, double unsure, double others) {
+                           const double leaf_mm3 = input.zones.leaf_volume_mm3();
+                           visit({leaf, held, when, z, share * leaf_mm3,
+                                  edge || share < 1 ? unsure * leaf_mm3 : 0.0, others * leaf_mm3});
+                         });
+                   });
 }
 
-void for_each_left_in_target(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick,
+void for_each_left_in_target(const GradeInput& input, const RemovedMap& removed,
+                             std::int64_t last_tick,
                              const std::function<void(IVec3, const LeftShare&)>& visit) {
   const Shares shares(input, removed, removed_late(input, last_tick));
   RemovedMap::Marks seen = removed.marks();
-  for_each_touched(input, removed, last_tick, shares.late(), seen, [](IVec3, std::uint8_t, std::int64_t) {});
+  for_each_touched(input, removed, last_tick, shares.late(), seen,
+                   [](IVec3, std::uint8_t, std::int64_t) {});
   for_each_in_target(input, removed, shares, seen, [&](IVec3 leaf, double, const LeftShare& left) {
     if (left.leaves > 0) visit(leaf, left);
   });
 }
 
-VolumeMeasures measure_volumes(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
+VolumeMeasures measure_volumes(const GradeInput& input, const RemovedMap& removed,
+                               std::int64_t last_tick) {
   const Shares shares(input, removed, removed_late(input, last_tick));
   VolumeMeasures v;
   RemovedMap::Marks seen = removed.marks();

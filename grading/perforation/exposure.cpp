@@ -14,10 +14,12 @@ namespace {
 constexpr double k_deep_mm = 0.3;   // a scrape along a root is less
 constexpr int k_normal_leaves = 2;  // on each side, over which a wall's normal is taken
 
-/// The hard leaves removed so far: which are joined, and whether those reach deep below the tooth's surface.
+/// The hard leaves removed so far: which are joined, and whether those reach deep below the tooth's
+/// surface.
 class Cavity {
  public:
-  Cavity(const Octree& before, const std::vector<RemovedAt>& hard, const std::array<bool, 256>& around)
+  Cavity(const Octree& before, const std::vector<RemovedAt>& hard,
+         const std::array<bool, 256>& around)
       : number_(box_around(hard, 1), -1), deep_(hard.size(), true) {
     if (std::none_of(around.begin(), around.end(), [](bool a) { return a; })) return;
     const int margin = static_cast<int>(std::ceil(k_deep_mm / before.leaf_mm())) + 1;
@@ -31,7 +33,8 @@ class Cavity {
           const std::uint8_t t = before.tissue(leaf, cursor);
           outside[leaf] = t == k_air || around[t] ? 1 : 0;
         }
-    const Lattice<std::int32_t> nearest(box, nearest_seed(box.size, outside.all(), k_deep_mm / before.leaf_mm()));
+    const Lattice<std::int32_t> nearest(
+        box, nearest_seed(box.size, outside.all(), k_deep_mm / before.leaf_mm()));
     for (std::size_t i = 0; i < hard.size(); ++i) deep_[i] = nearest[hard[i].leaf.leaf()] < 0;
   }
   /// Leaves in the order of the list that it was made with.
@@ -42,12 +45,15 @@ class Cavity {
     for (const IVec3 step : scenarios::k_six_neighbours)
       if (const std::int32_t other = number_[leaf + step]; other >= 0) join(at, other);
   }
-  [[nodiscard]] bool reaches_deep(IVec3 leaf) { return deep_[static_cast<std::size_t>(root(number_[leaf]))]; }
+  [[nodiscard]] bool reaches_deep(IVec3 leaf) {
+    return deep_[static_cast<std::size_t>(root(number_[leaf]))];
+  }
 
  private:
   std::int32_t root(std::int32_t i) {
     while (joined_[static_cast<std::size_t>(i)] != i) {
-      joined_[static_cast<std::size_t>(i)] = joined_[static_cast<std::size_t>(joined_[static_cast<std::size_t>(i)])];
+      joined_[static_cast<std::size_t>(i)] =
+          joined_[static_cast<std::size_t>(joined_[static_cast<std::size_t>(i)])];
       i = joined_[static_cast<std::size_t>(i)];
     }
     return i;
@@ -57,7 +63,8 @@ class Cavity {
     b = root(b);
     if (a == b) return;
     joined_[static_cast<std::size_t>(a)] = b;
-    deep_[static_cast<std::size_t>(b)] = deep_[static_cast<std::size_t>(b)] || deep_[static_cast<std::size_t>(a)];
+    deep_[static_cast<std::size_t>(b)] =
+        deep_[static_cast<std::size_t>(b)] || deep_[static_cast<std::size_t>(a)];
   }
 
   Lattice<std::int32_t> number_;
@@ -70,7 +77,8 @@ struct Face {
   std::int64_t tick = 0;
 };
 
-/// Part of a face's leaf² that is the wall's area: |n| along the face's axis, n the mean direction of all faces of that wall around it.
+/// Part of a face's leaf² that is the wall's area: |n| along the face's axis, n the mean direction
+/// of all faces of that wall around it.
 double slant(const Octree& before, const Face& f, std::uint8_t tissue, Octree::Cursor& cursor) {
   IVec3 sum{0, 0, 0};
   for (int z = -k_normal_leaves; z <= k_normal_leaves; ++z)
@@ -83,12 +91,16 @@ double slant(const Octree& before, const Face& f, std::uint8_t tissue, Octree::C
       }
   const IVec3 axis = f.from - f.to;
   const double along = std::abs(sum.x * axis.x + sum.y * axis.y + sum.z * axis.z);
-  const double all = std::sqrt(static_cast<double>(sum.x) * sum.x + static_cast<double>(sum.y) * sum.y + static_cast<double>(sum.z) * sum.z);
+  const double all =
+      std::sqrt(static_cast<double>(sum.x) * sum.x + static_cast<double>(sum.y) * sum.y +
+                static_cast<double>(sum.z) * sum.z);
   return all > 0.0 ? along / all : 1.0;
 }
 
-/// Leaves of a tissue around the tooth that were removed through its faces: joined to one of them over other removed ones.
-Lattice<std::uint8_t> through_faces(const std::vector<RemovedAt>& soft, const std::vector<Face>& faces) {
+/// Leaves of a tissue around the tooth that were removed through its faces: joined to one of them
+/// over other removed ones.
+Lattice<std::uint8_t> through_faces(const std::vector<RemovedAt>& soft,
+                                    const std::vector<Face>& faces) {
   Lattice<std::uint8_t> mark(box_around(soft, 1), 0);  // 1 removed, 2 through a face
   for (const auto& r : soft) mark[r.leaf.leaf()] = 1;
   std::vector<IVec3> next;
@@ -115,8 +127,9 @@ std::array<bool, 256> tissues_around(const Tooth& tooth, const std::array<bool, 
   return around;
 }
 
-std::array<ExposedTissue, 256> measure_exposure(const Tooth& tooth, std::span<const RemovedAt> list, const RemovedMap& removed,
-                                                std::int64_t last_tick, const std::array<bool, 256>& of_interest,
+std::array<ExposedTissue, 256> measure_exposure(const Tooth& tooth, std::span<const RemovedAt> list,
+                                                const RemovedMap& removed, std::int64_t last_tick,
+                                                const std::array<bool, 256>& of_interest,
                                                 const std::array<bool, 256>* known_around) {
   std::array<ExposedTissue, 256> out;
   const Octree& before = tooth.octree;
@@ -126,21 +139,24 @@ std::array<ExposedTissue, 256> measure_exposure(const Tooth& tooth, std::span<co
     if (before.is_solid(r.leaf.tissue)) hard.push_back(r);
     if (of_interest[r.leaf.tissue]) soft[r.leaf.tissue].push_back(r);
   });
-  const std::array<bool, 256> around = known_around != nullptr ? *known_around : tissues_around(tooth, of_interest);
+  const std::array<bool, 256> around =
+      known_around != nullptr ? *known_around : tissues_around(tooth, of_interest);
   std::array<std::vector<Face>, 256> faces;
   Octree::Cursor cursor;
   if (!hard.empty()) {
     Cavity cavity(before, hard, around);
     for (std::size_t begin = 0; begin < hard.size();) {
       std::size_t end = begin;
-      for (; end < hard.size() && hard[end].tick == hard[begin].tick; ++end) cavity.add(hard[end].leaf.leaf());
+      for (; end < hard.size() && hard[end].tick == hard[begin].tick; ++end)
+        cavity.add(hard[end].leaf.leaf());
       for (; begin < end; ++begin)
         for (const IVec3 step : scenarios::k_six_neighbours) {
           const Face f{hard[begin].leaf.leaf(), hard[begin].leaf.leaf() + step, hard[begin].tick};
           const std::uint8_t tissue = before.tissue(f.to, cursor);
           if (!of_interest[tissue]) continue;
           const std::int64_t gone = removed.tick(f.to);
-          if (around[tissue] && ((gone >= 0 && gone < f.tick) || !cavity.reaches_deep(f.from))) continue;
+          if (around[tissue] && ((gone >= 0 && gone < f.tick) || !cavity.reaches_deep(f.from)))
+            continue;
           faces[tissue].push_back(f);
         }
     }

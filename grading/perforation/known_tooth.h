@@ -1,4 +1,5 @@
-// What finding a perforation asks of the tooth before the exam, whoever sat it: made when it is first asked for, and kept for the next who sat it.
+// What finding a perforation asks of the tooth before the exam, whoever sat it: made when it is
+// first asked for, and kept for the next who sat it.
 #pragma once
 
 #include <array>
@@ -16,12 +17,15 @@ namespace cavum::grading {
 /// Any number of threads may ask; who asks first makes it.
 class KnownTooth {
  public:
-  /// `seen`: with what stands beside it; `own`: alone. Both must outlive this, and stay as they are.
+  /// `seen`: with what stands beside it; `own`: alone. Both must outlive this, and stay as they
+  /// are.
   KnownTooth(const Tooth& seen, const Tooth& own) : seen_(seen), own_(own) {}
   /// `tissues_around` of the tooth alone.
   [[nodiscard]] const std::array<bool, 256>& around(const std::array<bool, 256>& of_interest);
-  /// `filled_force_n` in the tooth as seen, its cavities of `tissues` (by id) filled. The last answer is kept, too: who shows a mark proves it next.
-  [[nodiscard]] std::vector<double> filled_force_n(const SessionSetup& setup, const std::array<bool, 256>& tissues,
+  /// `filled_force_n` in the tooth as seen, its cavities of `tissues` (by id) filled. The last
+  /// answer is kept, too: who shows a mark proves it next.
+  [[nodiscard]] std::vector<double> filled_force_n(const SessionSetup& setup,
+                                                   const std::array<bool, 256>& tissues,
                                                    std::span<const TickInput> inputs);
 
  private:

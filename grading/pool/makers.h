@@ -1,4 +1,5 @@
-// Who makes the lines of a work: threads of this process, tasks of a Slurm cluster, or shards that any CI runs. The lines are the same bytes.
+// Who makes the lines of a work: threads of this process, tasks of a Slurm cluster, or shards that
+// any CI runs. The lines are the same bytes.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +14,11 @@
 namespace cavum::pool {
 
 struct Run {
-  int threads = 0;         ///< 0: as many as there are cores
-  std::string parts = {};  ///< folder for part files, from which a run that was broken off goes on; empty: none
+  int threads = 0;  ///< 0: as many as there are cores
+  std::string parts =
+      {};  ///< folder for part files, from which a run that was broken off goes on; empty: none
   std::function<void(std::size_t done, std::size_t of)> told = {};  ///< after each line
-  std::function<bool()> stop = {};                                  ///< asked between lines: true ends the run early
+  std::function<bool()> stop = {};  ///< asked between lines: true ends the run early
 };
 
 struct Made {
@@ -34,23 +36,28 @@ using Maker = std::function<Made(const Work&)>;
 
 /// A line that could not be made for want of memory is tried again, three times in all.
 [[nodiscard]] Made by_threads(const Work& work, const Run& run = {});
-/// Every `of`-th line from `shard` on (1 to `of`), into one part file. Goes on where the file ends. Returns how many were made.
-std::size_t make_shard(const Work& work, std::size_t shard, std::size_t of, const std::string& part, const Run& run = {});
+/// Every `of`-th line from `shard` on (1 to `of`), into one part file. Goes on where the file ends.
+/// Returns how many were made.
+std::size_t make_shard(const Work& work, std::size_t shard, std::size_t of, const std::string& part,
+                       const Run& run = {});
 
 /// The lines of `wanted`, one after the other, into a part.
 void make_lines(const Work& work, std::span<const std::size_t> wanted, PartWriter& part);
 
 struct Slurm {
-  std::string folder;               ///< of the work: on a disk that all machines see under this name. Part files and logs stay in it
+  std::string folder;  ///< of the work: on a disk that all machines see under this name. Part files
+                       ///< and logs stay in it
   std::string program;              ///< `cavum`, as the nodes find it
   std::size_t a_task = 100;         ///< sessions
   std::vector<std::string> sbatch;  ///< further options of sbatch: partition, account, time, memory
   int attempts = 3;                 ///< at a session whose task died or whose part is damaged
   double poll_s = 2.0;
 };
-/// Job arrays of sbatch; squeue is asked what became of them. Throws Error when Slurm is not installed or refuses.
+/// Job arrays of sbatch; squeue is asked what became of them. Throws Error when Slurm is not
+/// installed or refuses.
 [[nodiscard]] Made by_slurm(const Work& work, const Run& run, const Slurm& slurm);
-/// What a task of such an array does: the block that its number in the array (SLURM_ARRAY_TASK_ID) names.
+/// What a task of such an array does: the block that its number in the array (SLURM_ARRAY_TASK_ID)
+/// names.
 void slurm_task(const std::string& folder, int attempt, const std::string& sessions);
 
 }  // namespace cavum::pool

@@ -31,7 +31,8 @@ struct Row {
 };
 
 /// "index wall_us core_us seal line"; none when it is not of this work, or damaged.
-std::optional<Row> read_row(std::string_view text, const std::string& work_id, std::size_t sessions) {
+std::optional<Row> read_row(std::string_view text, const std::string& work_id,
+                            std::size_t sessions) {
   Row row;
   const auto word = [&]() -> std::string_view {
     const auto end = text.find(' ');
@@ -60,17 +61,21 @@ std::string sha256_now(const Work& work, std::size_t index) {
   const std::string& name = work.sessions[index];
   try {
     Damages ignored;
-    return to_hex(sha256(read_session_image(work.folder.empty() ? name : work.folder + "/" + name, ignored)));
+    return to_hex(
+        sha256(read_session_image(work.folder.empty() ? name : work.folder + "/" + name, ignored)));
   } catch (const Error&) {
     return {};
   }
 }
 
-std::string sha256_in(std::string_view line) { return text_in(parse_json_or_null(line, k_json_part), "sha256"); }
+std::string sha256_in(std::string_view line) {
+  return text_in(parse_json_or_null(line, k_json_part), "sha256");
+}
 
 }  // namespace
 
-PartWriter::PartWriter(const std::string& path, std::string work_id) : path_(path), work_id_(std::move(work_id)) {
+PartWriter::PartWriter(const std::string& path, std::string work_id)
+    : path_(path), work_id_(std::move(work_id)) {
   bool cut = false;  // a row that was cut off must not run into the next
   if (std::ifstream before(path, std::ios::binary | std::ios::ate); before && before.tellg() > 0) {
     before.seekg(-1, std::ios::end);
@@ -78,15 +83,19 @@ PartWriter::PartWriter(const std::string& path, std::string work_id) : path_(pat
   }
   out_.open(path, std::ios::binary | std::ios::app);
   if (cut) out_ << "\n" << std::flush;
-  if (!out_) throw Error(path, msg("cannot be written"), msg("name a folder that is writable and has room"));
+  if (!out_)
+    throw Error(path, msg("cannot be written"), msg("name a folder that is writable and has room"));
 }
 
 void PartWriter::add(std::size_t index, const std::string& line, const Spent& spent) {
-  out_ << fmt::format("{} {} {} {} {}\n", index, static_cast<std::uint64_t>(spent.wall_s * 1e6), static_cast<std::uint64_t>(spent.core_s * 1e6),
+  out_ << fmt::format("{} {} {} {} {}\n", index, static_cast<std::uint64_t>(spent.wall_s * 1e6),
+                      static_cast<std::uint64_t>(spent.core_s * 1e6),
                       seal_of(work_id_, index, line), line)
        << std::flush;
   if (!out_)
-    throw Error(path_, msg("cannot be written to its end"), msg("make room on the disk, and run the same command again: it goes on where it stood"));
+    throw Error(
+        path_, msg("cannot be written to its end"),
+        msg("make room on the disk, and run the same command again: it goes on where it stood"));
 }
 
 std::vector<std::size_t> Parts::missing() const {
@@ -97,7 +106,9 @@ std::vector<std::size_t> Parts::missing() const {
 }
 
 Parts read_parts(const Work& work, const std::vector<std::string>& files) {
-  Parts parts{std::vector<std::optional<std::string>>(work.sessions.size()), std::vector<Spent>(work.sessions.size()), {}};
+  Parts parts{std::vector<std::optional<std::string>>(work.sessions.size()),
+              std::vector<Spent>(work.sessions.size()),
+              {}};
   const std::string id = id_of(work);
   for (const auto& file : files) {
     std::ifstream in(file, std::ios::binary);
@@ -113,14 +124,19 @@ Parts read_parts(const Work& work, const std::vector<std::string>& files) {
       if (kept && *kept != row->line) {
         if (sha256_in(*kept) == sha256_in(row->line))
           throw Error(
-              file, msg("its line of {} is another one than that of a part before it", work.sessions[row->index]),
+              file,
+              msg("its line of {} is another one than that of a part before it",
+                  work.sessions[row->index]),
               msg("two machines do not compute the same: run `cavum replay --verify` on it on both, and remove the parts of the one that is wrong"));
-        if (sha256_in(row->line) != sha256_now(work, row->index)) continue;  // of the file as it was once
+        if (sha256_in(row->line) != sha256_now(work, row->index))
+          continue;  // of the file as it was once
       }
       kept = std::string(row->line);
       parts.spent[row->index] = row->spent;
     }
-    if (wrong > 0) parts.remarks.push_back(msg("{}: {} of {} rows are damaged, or of other work", file, wrong, rows));
+    if (wrong > 0)
+      parts.remarks.push_back(
+          msg("{}: {} of {} rows are damaged, or of other work", file, wrong, rows));
   }
   return parts;
 }
@@ -137,7 +153,8 @@ std::vector<std::string> part_files(const std::string& folder) {
 void leave_out_changed(const Work& work, Parts& parts) {
   for (std::size_t i = 0; i < parts.lines.size(); ++i) {
     if (!parts.lines[i]) continue;
-    if (sha256_in(*parts.lines[i]) == sha256_now(work, i)) continue;  // both are empty of a file that is gone: its line says so
+    if (sha256_in(*parts.lines[i]) == sha256_now(work, i))
+      continue;  // both are empty of a file that is gone: its line says so
     parts.lines[i].reset();
     parts.spent[i] = {};
   }

@@ -1,5 +1,6 @@
-// Lines that were made, kept in part files by whoever made them: one row a line, sealed for its work and its place, so that what is damaged, cut off
-// or of other work is known and made again, and what is there is not. The order of the rows and of the files says nothing.
+// Lines that were made, kept in part files by whoever made them: one row a line, sealed for its
+// work and its place, so that what is damaged, cut off or of other work is known and made again,
+// and what is there is not. The order of the rows and of the files says nothing.
 #pragma once
 
 #include <cstdint>
@@ -35,15 +36,16 @@ class PartWriter {
 struct Parts {
   std::vector<std::optional<std::string>> lines;  ///< by index; none: missing
   std::vector<Spent> spent;                       ///< by index
-  std::vector<Message> remarks;                   ///< files that are damaged or of other work, each once
+  std::vector<Message> remarks;  ///< files that are damaged or of other work, each once
   [[nodiscard]] std::vector<std::size_t> missing() const;
 };
-/// Reads part files. Throws Error when one cannot be read, or when two hold different lines of one session: then two machines do not compute the
-/// same, and neither is believed.
+/// Reads part files. Throws Error when one cannot be read, or when two hold different lines of one
+/// session: then two machines do not compute the same, and neither is believed.
 [[nodiscard]] Parts read_parts(const Work& work, const std::vector<std::string>& files);
 /// The part files in a folder, sorted; none when it is not there.
 [[nodiscard]] std::vector<std::string> part_files(const std::string& folder);
-/// Leaves out lines of sessions that are other bytes by now; the line of one that could not be read stays while it cannot be.
+/// Leaves out lines of sessions that are other bytes by now; the line of one that could not be read
+/// stays while it cannot be.
 void leave_out_changed(const Work& work, Parts& parts);
 
 }  // namespace cavum::pool

@@ -45,15 +45,18 @@ json marked(const Work& work, const SessionReader& session, grading::ExamContext
     grading::use_scenario(*graded, std::move(scenario), work.another_task);
     grading::use_rubric(*graded, graded->scenario.rubric);
   }
-  if (!work.rubric_toml.empty()) grading::use_rubric(*graded, scenarios::parse_rubric(work.rubric_toml, "rubric.toml"));
-  return parse_json(grading::to_json(grading::grade(graded->input(), graded->rubric)).dump(), msg("result"));
+  if (!work.rubric_toml.empty())
+    grading::use_rubric(*graded, scenarios::parse_rubric(work.rubric_toml, "rubric.toml"));
+  return parse_json(grading::to_json(grading::grade(graded->input(), graded->rubric)).dump(),
+                    msg("result"));
 }
 
 }  // namespace
 
 std::string to_text(const Work& work) {
   json surfaces = json::array();
-  for (const auto& [name, bytes] : work.surfaces) surfaces.push_back({{"name", name}, {"hex", to_hex(bytes)}});
+  for (const auto& [name, bytes] : work.surfaces)
+    surfaces.push_back({{"name", name}, {"hex", to_hex(bytes)}});
   return dumped({{"cavum", version()},
                  {"physics", k_physics_version},
                  {"grading", grading::k_grading_version},
@@ -67,25 +70,30 @@ std::string to_text(const Work& work) {
 
 Work parse_work(const std::string& text, const std::string& where) {
   const json j = parse_json(text, where, k_work_limits);
-  if (text_in(j, "cavum") != version() || whole_in(j, "physics") != k_physics_version || whole_in(j, "grading") != grading::k_grading_version)
-    throw Error(where, msg("was made by another version of the program"), msg("run the same version on all machines"));
+  if (text_in(j, "cavum") != version() || whole_in(j, "physics") != k_physics_version ||
+      whole_in(j, "grading") != grading::k_grading_version)
+    throw Error(where, msg("was made by another version of the program"),
+                msg("run the same version on all machines"));
   Work work;
   const std::string what = text_in(j, "what");
   bool known = false;
   for (int i = 0; i < 3; ++i)
     if (what == k_what[i]) work.what = static_cast<What>(i), known = true;
-  const json &sessions = member_of(j, "sessions"), &surfaces = member_of(j, "surfaces"), &another = member_of(j, "another_task");
+  const json &sessions = member_of(j, "sessions"), &surfaces = member_of(j, "surfaces"),
+             &another = member_of(j, "another_task");
   if (!known || !sessions.is_array() || !surfaces.is_array() || !another.is_boolean())
     throw Error(where, msg("is no list of work"), msg("make it anew, by `cavum verify-all`"));
   for (const auto& s : sessions) {
-    if (!s.is_string()) throw Error(where, msg("names a session that is no text"), msg("make the work anew"));
+    if (!s.is_string())
+      throw Error(where, msg("names a session that is no text"), msg("make the work anew"));
     work.sessions.push_back(s.get<std::string>());
   }
   work.rubric_toml = text_in(j, "rubric");
   work.scenario_toml = text_in(j, "scenario");
   for (const auto& s : surfaces) {
     auto bytes = from_hex(text_in(s, "hex"));
-    if (!bytes) throw Error(where, msg("holds a surface that is not hexadecimal"), msg("make the work anew"));
+    if (!bytes)
+      throw Error(where, msg("holds a surface that is not hexadecimal"), msg("make the work anew"));
     work.surfaces.emplace_back(text_in(s, "name"), std::move(*bytes));
   }
   work.another_task = another.get<bool>();
@@ -99,7 +107,7 @@ std::string line_of(const Work& work, std::size_t index, grading::ExamContexts& 
   json line{{"session", name}};
   const auto failed = [&line](const Message& error) {
     line["error"] = one_line(english_text(error));
-    line["said"] = encode(error);
+    line["message"] = encode(error);
   };
   try {
     Damages findings;
@@ -127,7 +135,9 @@ std::string line_of(const Work& work, std::size_t index, grading::ExamContexts& 
   return dumped(line);
 }
 
-Message error_in(const json& line) { return line.contains("error") ? decode_message(member_of(line, "said")) : Message(); }
+Message error_in(const json& line) {
+  return line.contains("error") ? decode_message(member_of(line, "message")) : Message();
+}
 
 Damages findings_in(const json& line) {
   Damages all;

@@ -11,7 +11,9 @@ using nlohmann::json;
 
 const FiledSession& appealed(const Registry& registry, std::uint64_t session) {
   const FiledSession* found = registry.session(session);
-  if (found == nullptr) throw Error(msg("entry {}", session), msg("is no session's entry"), msg("see `cavum ledger show`"));
+  if (found == nullptr)
+    throw Error(msg("entry {}", session), msg("is no session's entry"),
+                msg("see `cavum ledger show`"));
   return *found;
 }
 
@@ -36,28 +38,35 @@ const LedgerEntry& open_appeal(Ledger& ledger, std::uint64_t session, const std:
       [&](const LedgerContent&) {
         const FiledSession& s = appealed(ledger.registry(), session);
         const Message where = msg("entry {}", session);
-        if (!s.result->is_object()) throw Error(where, msg("has no result"), msg("there is nothing to appeal against"));
+        if (!s.result->is_object())
+          throw Error(where, msg("has no result"), msg("there is nothing to appeal against"));
         if (const Appeal* open = s.open_appeal())
-          throw Error(LedgerError::twice, where, msg("an appeal is open (entry {})", open->seq), msg("answer that one first"));
+          throw Error(LedgerError::twice, where, msg("an appeal is open (entry {})", open->seq),
+                      msg("answer that one first"));
         return AppealEntry{session};
       },
       reason);
 }
 
-const LedgerEntry& answer_appeal(Ledger& ledger, std::uint64_t session, Outcome outcome, const std::string& reason) {
+const LedgerEntry& answer_appeal(Ledger& ledger, std::uint64_t session, Outcome outcome,
+                                 const std::string& reason) {
   require_reason(reason);
   return ledger.append(
       [&](const LedgerContent&) {
         const FiledSession& s = appealed(ledger.registry(), session);
         const Message where = msg("entry {}", session);
         const Appeal* open = s.open_appeal();
-        if (open == nullptr) throw Error(LedgerError::unknown, where, msg("no appeal is open"), msg("see `cavum ledger appeal` without --session"));
+        if (open == nullptr)
+          throw Error(LedgerError::unknown, where, msg("no appeal is open"),
+                      msg("see `cavum ledger appeal` without --session"));
         const bool changed = changed_since(s, *open);
         if (outcome == Outcome::changed && !changed)
-          throw Error(LedgerError::not_now, where, msg("no other result was entered since the appeal"),
+          throw Error(LedgerError::not_now, where,
+                      msg("no other result was entered since the appeal"),
                       msg("enter it first: `cavum ledger regrade` or `cavum ledger decide`"));
         if (outcome == Outcome::stands && changed)
-          throw Error(LedgerError::another_state, where, msg("another result was entered since the appeal"),
+          throw Error(LedgerError::another_state, where,
+                      msg("another result was entered since the appeal"),
                       msg("look at that one; if it is right, answer that the result was changed"));
         return AnswerEntry{session, open->seq, outcome};
       },

@@ -29,9 +29,10 @@ constexpr std::size_t k_longest_acceptance = 1000;
 
 std::string checkpoint_path(const std::string& folder) { return folder + "/checkpoint"; }
 
-/// A database at one moment, whoever writes to it, under another name first. One file without a log, synced with its name.
+/// A database at one moment, whoever writes to it, under another name first. One file without a
+/// log, synced with its name.
 void copy_database(const std::string& from, const std::string& to) {
-  const std::string fresh = temporary_name_beside(to);
+  const std::string fresh = temporary_name_next_to(to);
   make_private_file(fresh);
   try {
     Database copy = Database::open(fresh, false);
@@ -40,7 +41,8 @@ void copy_database(const std::string& from, const std::string& to) {
       Database source = Database::open(from, false);
       source.copy_to(copy);
     } catch (const DatabaseError& e) {
-      if (e.refusal().fault == DiskFault::full || e.refusal().fault == DiskFault::input_output) throw;
+      if (e.refusal().fault == DiskFault::full || e.refusal().fault == DiskFault::input_output)
+        throw;
       Damages findings;  // a folder that may only be read
       Database source = Database::from_image(read_session_image(from, findings), from);
       source.copy_to(copy);
@@ -63,25 +65,30 @@ std::set<std::string> filed_sessions(const LedgerContent& c) {
   for (const auto& e : c.entries) {
     const auto* session = e.as<SessionEntry>();
     const std::string hash = session == nullptr ? "" : session->file_sha256;
-    if (hash.size() == 64 && hash.find_first_not_of("0123456789abcdef") == std::string::npos && !gone.contains(hash)) out.insert(hash);
+    if (hash.size() == 64 && hash.find_first_not_of("0123456789abcdef") == std::string::npos &&
+        !gone.contains(hash))
+      out.insert(hash);
   }
   return out;
 }
 
-bool has_session(const LedgerPlaces& places, const std::string& hash) {
+bool has_session(const LedgerPaths& places, const std::string& hash) {
   const std::string path = places.session(hash);
   std::error_code none;
   return fs::is_regular_file(path, none) && to_hex(sha256(read_file(path))) == hash;
 }
 
-/// Those that are not in `from`, or changed there. `copied` counts those that were not in `to` before.
-std::vector<std::string> copy_sessions(const LedgerContent& c, const LedgerPlaces& from, const LedgerPlaces& to, std::size_t& copied) {
+/// Those that are not in `from`, or changed there. `copied` counts those that were not in `to`
+/// before.
+std::vector<std::string> copy_sessions(const LedgerContent& c, const LedgerPaths& from,
+                                       const LedgerPaths& to, std::size_t& copied) {
   std::vector<std::string> missing;
   make_private_folder(to.folder + "/sessions");
   for (const auto& hash : filed_sessions(c)) {
     if (has_session(to, hash)) continue;
     std::error_code none;
-    const Bytes bytes = fs::is_regular_file(from.session(hash), none) ? read_file(from.session(hash)) : Bytes();
+    const Bytes bytes =
+        fs::is_regular_file(from.session(hash), none) ? read_file(from.session(hash)) : Bytes();
     if (to_hex(sha256(bytes)) != hash) {
       missing.push_back(hash);
       continue;
@@ -94,7 +101,7 @@ std::vector<std::string> copy_sessions(const LedgerContent& c, const LedgerPlace
 }
 
 /// The identities, without those whom the ledger says were forgotten.
-bool copy_identities(const LedgerContent& c, const LedgerPlaces& from, const LedgerPlaces& to) {
+bool copy_identities(const LedgerContent& c, const LedgerPaths& from, const LedgerPaths& to) {
   if (!fs::exists(from.identities())) return false;
   copy_database(from.identities(), to.identities());
   Identities identities(to.identities());
@@ -109,20 +116,27 @@ void require_place_for(const LedgerContent& content, const std::string& folder) 
   if (!fs::exists(checkpoint_path(folder))) {  // a first backup may have been cut short
     for (const auto& f : fs::directory_iterator(folder)) {
       const std::string name = f.path().filename().string();
-      if (name != "ledger.db" && name != "identities.db" && name != "sessions" && !name.starts_with(".cavum-"))
+      if (name != "ledger.db" && name != "identities.db" && name != "sessions" &&
+          !name.starts_with(".cavum-"))
         throw Error(folder, msg("holds something else than a backup"), msg("name a new folder"));
     }
-    if (!fs::exists(LedgerPlaces{folder}.database())) return;
+    if (!fs::exists(LedgerPaths{folder}.database())) return;
   }
   const LedgerContent before = read_ledger({folder}, AskWitness::no);
   Findings findings;
-  if (!before.checkpoints.empty()) check_history(content, before.id, before.checkpoints.back(), msg("the backup that is there"), findings);
+  if (!before.checkpoints.empty())
+    check_history(content, before.id, before.checkpoints.back(), msg("the backup that is there"),
+                  findings);
   if (before.checkpoints.empty() || !findings.empty())
-    throw Error(folder, findings.empty() ? msg("holds a backup that cannot be read") : findings[0].message(), msg("keep it, and name a new folder"));
+    throw Error(
+        folder,
+        findings.empty() ? msg("holds a backup that cannot be read") : findings[0].message(),
+        msg("keep it, and name a new folder"));
 }
 
 /// Adds what a checkpoint from outside tells of the backup.
-void compare(RestorePlan& plan, const History& history, const std::string& id, const Checkpoint& seen, const Message& what, const Message& entry) {
+void compare(RestorePlan& plan, const History& history, const std::string& id,
+             const Checkpoint& seen, const Message& what, const Message& entry) {
   plan.compared = true;
   Findings wrong;
   const Standing standing = check_history(history, id, seen, what, wrong);
@@ -132,11 +146,12 @@ void compare(RestorePlan& plan, const History& history, const std::string& id, c
   }
   if (!entry.empty()) plan.lost_entries.push_back(entry);
   plan.lost.push_back(seen);
-  if (!plan.last_seen || seen.size > plan.last_seen->checkpoint.size) plan.last_seen = Seen{what, seen};
+  if (!plan.last_seen || seen.size > plan.last_seen->checkpoint.size)
+    plan.last_seen = Seen{what, seen};
 }
 
-/// What the backup itself says that it held: entries may have been cut off since. It may hold more: the next backup into the same folder was cut
-/// short before it said so.
+/// What the backup itself says that it held: entries may have been cut off since. It may hold more:
+/// the next backup into the same folder was cut short before it said so.
 void check_own_checkpoint(RestorePlan& plan, const History& history, const std::string& path) {
   const LedgerContent& c = plan.content;
   if (!fs::exists(path)) return;
@@ -147,7 +162,8 @@ void check_own_checkpoint(RestorePlan& plan, const History& history, const std::
     const Checkpoint p = checkpoint_in(told, c.id, key_then, path);
     if (!is_signed_by_school(c.id, key_then, p))
       plan.findings.push_back(finding<FindingKind::backup_signature>());
-    else if (p.size == 0 || p.size > history.roots().size() || history.roots()[static_cast<std::size_t>(p.size) - 1] != p.root)
+    else if (p.size == 0 || p.size > history.roots().size() ||
+             history.roots()[static_cast<std::size_t>(p.size) - 1] != p.root)
       plan.findings.push_back(finding<FindingKind::backup_changed>(p.size, own.size));
   } catch (const Error& e) {
     plan.findings.push_back(finding<FindingKind::malformed>(e.where_and_problem()));
@@ -156,29 +172,40 @@ void check_own_checkpoint(RestorePlan& plan, const History& history, const std::
 
 }  // namespace
 
-Backup back_up(const LedgerPlaces& from, const std::string& folder, bool with_identities) {
-  const LedgerPlaces to{folder};
-  if (!fs::exists(from.database())) throw Error(from.folder, msg("holds no ledger"), instead_of_none(from.database()));
+Backup back_up(const LedgerPaths& from, const std::string& folder, bool with_identities) {
+  const LedgerPaths to{folder};
+  if (!fs::exists(from.database()))
+    throw Error(from.folder, msg("holds no ledger"), instead_of_none(from.database()));
   std::error_code none;
   if (fs::weakly_canonical(folder, none) == fs::weakly_canonical(from.folder, none))
     throw Error(folder, msg("is the ledger itself"), msg("name another folder"));
   const LedgerContent now = read_ledger(from);
   if (!now.findings.empty())
-    throw Error(from.folder, msg("the ledger does not hold ({}), and a backup of it would be taken for one that does", now.findings[0].message()),
-                msg("see `cavum ledger verify`; to keep it as evidence, copy the folder"));
+    throw Error(
+        from.folder,
+        msg("the ledger does not hold ({}), and a backup of it would be taken for one that does",
+            now.findings[0].message()),
+        msg("see `cavum ledger verify`; to keep it as evidence, copy the folder"));
   make_private_folder(folder);
-  const FolderLock lock(folder, msg("cannot be kept to this backup alone"), msg("name another folder"));
-  require_place_for(read_ledger(from), folder);  // as it is by now: whoever held the folder may have put a later state there
+  const FolderLock lock(folder, msg("cannot be kept to this backup alone"),
+                        msg("name another folder"));
+  require_place_for(
+      read_ledger(from),
+      folder);  // as it is by now: whoever held the folder may have put a later state there
   Backup out;
   LedgerContent copy;
-  for (bool erased_meanwhile = true; erased_meanwhile;) {  // then the entry that erases belongs to the backup too
+  for (bool erased_meanwhile = true;
+       erased_meanwhile;) {  // then the entry that erases belongs to the backup too
     copy_database(from.database(), to.database());
     copy = read_ledger(to, AskWitness::no);
     if (!copy.findings.empty())
-      throw Error(to.database(), msg("the copy does not hold ({})", copy.findings[0].message()), msg("check the disk, and take it again"));
+      throw Error(to.database(), msg("the copy does not hold ({})", copy.findings[0].message()),
+                  msg("check the disk, and take it again"));
     out.missing = copy_sessions(copy, from, to, out.copied);
-    const auto gone = out.missing.empty() ? std::set<std::string>() : erased_recordings(read_ledger(from));
-    erased_meanwhile = std::any_of(out.missing.begin(), out.missing.end(), [&](const std::string& hash) { return gone.contains(hash); });
+    const auto gone =
+        out.missing.empty() ? std::set<std::string>() : erased_recordings(read_ledger(from));
+    erased_meanwhile = std::any_of(out.missing.begin(), out.missing.end(),
+                                   [&](const std::string& hash) { return gone.contains(hash); });
   }
   out.ledger_id = copy.id;
   out.checkpoint = copy.checkpoints.back();
@@ -191,13 +218,15 @@ Backup back_up(const LedgerPlaces& from, const std::string& folder, bool with_id
     remove_forgotten(copy, older);
   }
   write_text_file(checkpoint_path(folder),
-                  checkpoint_note(copy.id, copy.key_of(out.checkpoint.size), out.checkpoint, cosignatures_of(copy, out.checkpoint.size)));
+                  checkpoint_note(copy.id, copy.key_of(out.checkpoint.size), out.checkpoint,
+                                  cosignatures_of(copy, out.checkpoint.size)));
   sync_folder_of(folder);
   return out;
 }
 
-RestorePlan plan_restore(const std::string& backup, const std::vector<std::string>& receipts, const std::vector<std::string>& notes) {
-  const LedgerPlaces places{backup};
+RestorePlan plan_restore(const std::string& backup, const std::vector<std::string>& receipts,
+                         const std::vector<std::string>& notes) {
+  const LedgerPaths places{backup};
   RestorePlan plan;
   plan.content = read_ledger(places, AskWitness::no);
   plan.findings = plan.content.findings;
@@ -219,7 +248,9 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
   for (const auto& path : receipts) {
     const json receipt = parse_json_or_null(read_text_file(path));
     const std::string signer = text_in(receipt, "public_key");
-    if (const auto wrong = check_receipt(receipt, c.has_key(signer) ? signer : c.public_key, nullptr); !wrong.empty())
+    if (const auto wrong =
+            check_receipt(receipt, c.has_key(signer) ? signer : c.public_key, nullptr);
+        !wrong.empty())
       throw Error(path, wrong[0].message(), msg("use an intact copy"));
     const std::string id = receipt.at("ledger"), text = receipt.at("entry");
     const LedgerEntry entry = read_entry_or_none(text);
@@ -227,37 +258,52 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
     const auto seq = receipt.at("seq").get<std::uint64_t>();
     Message told;
     if (seq >= c.entries.size())
-      told = !entry.what ? msg("entry {}: of a kind that this version does not know ({})", seq, path)
+      told = !entry.what
+                 ? msg("entry {}: of a kind that this version does not know ({})", seq, path)
              : session == nullptr
                  ? msg("entry {}: {} ({})", seq, kind_name(*entry.what), path)
-                 : msg("entry {}: {} of {}, file {} ({})", seq, kind_name(*entry.what), session->candidate, session->file_sha256, path);
-    compare(plan, history, id, checkpoint_in(receipt.at("checkpoint"), id, signer, path), msg("{}", path), told);
+                 : msg("entry {}: {} of {}, file {} ({})", seq, kind_name(*entry.what),
+                       session->candidate, session->file_sha256, path);
+    compare(plan, history, id, checkpoint_in(receipt.at("checkpoint"), id, signer, path),
+            msg("{}", path), told);
   }
   for (const auto& path : notes) {
-    const std::string text = read_text_file(path), key_then = c.key_of(parse_checkpoint(text, c.public_key, path).checkpoint.size);
+    const std::string text = read_text_file(path),
+                      key_then =
+                          c.key_of(parse_checkpoint(text, c.public_key, path).checkpoint.size);
     const ReadCheckpoint read = parse_checkpoint(text, key_then, path);
     if (!is_signed_by_school(read.ledger_id, key_then, read.checkpoint))
-      throw Error(path, msg("the school's signature on it does not hold"), msg("use an intact copy"));
+      throw Error(path, msg("the school's signature on it does not hold"),
+                  msg("use an intact copy"));
     compare(plan, history, read.ledger_id, read.checkpoint, msg("{}", path), {});
   }
   if (plan.last_seen) {
-    const auto first = c.entries.size(), last = static_cast<std::size_t>(plan.last_seen->checkpoint.size - 1);
-    plan.lost_entries.insert(plan.lost_entries.begin(), first == last ? msg("entry {}: seen by {}", first, plan.last_seen->what)
-                                                                      : msg("entries {} to {}: seen by {}", first, last, plan.last_seen->what));
+    const auto first = c.entries.size(),
+               last = static_cast<std::size_t>(plan.last_seen->checkpoint.size - 1);
+    plan.lost_entries.insert(
+        plan.lost_entries.begin(),
+        first == last ? msg("entry {}: seen by {}", first, plan.last_seen->what)
+                      : msg("entries {} to {}: seen by {}", first, last, plan.last_seen->what));
   }
   return plan;
 }
 
-void restore(const std::string& backup, const std::string& folder, const RestorePlan& plan, const std::string& reason, const SigningKey& key) {
-  if (!plan.findings.empty()) throw Error(backup, plan.findings[0].message(), msg("restore another backup"));
-  if (plan.last_seen && (reason.empty() || reason.size() > k_longest_acceptance || !is_plain_text(reason)))
-    throw Error("--accept-loss", msg("gives no reason"),
-                msg("say in one line of UTF-8, 1000 bytes at most, why the school accepts the loss; it is kept for ever, so no names"));
+void restore(const std::string& backup, const std::string& folder, const RestorePlan& plan,
+             const std::string& reason, const SigningKey& key) {
+  if (!plan.findings.empty())
+    throw Error(backup, plan.findings[0].message(), msg("restore another backup"));
+  if (plan.last_seen &&
+      (reason.empty() || reason.size() > k_longest_acceptance || !is_plain_text(reason)))
+    throw Error(
+        "--accept-loss", msg("gives no reason"),
+        msg("say in one line of UTF-8, 1000 bytes at most, why the school accepts the loss; it is kept for ever, so no names"));
   std::error_code none;
-  if (fs::exists(folder, none)) throw Error(folder, msg("is there already"), msg("name a new folder"));
+  if (fs::exists(folder, none))
+    throw Error(folder, msg("is there already"), msg("name a new folder"));
   if (plan.content.public_key != to_hex(key.public_key))
-    throw Error(backup, msg("belongs to another school's key"), msg("name that key's file with --key, or restore it"));
-  const LedgerPlaces from{backup}, to{folder};
+    throw Error(backup, msg("belongs to another school's key"),
+                msg("name that key's file with --key, or restore it"));
+  const LedgerPaths from{backup}, to{folder};
   make_private_folder(folder);
   std::size_t copied = 0;
   static_cast<void>(copy_sessions(plan.content, from, to, copied));
@@ -268,7 +314,8 @@ void restore(const std::string& backup, const std::string& folder, const Restore
   Ledger ledger(folder, key, LedgerUse::restore);
   ledger.append(
       [&](const LedgerContent& c) {
-        RestoreEntry entry{{c.entries.size(), merkle_root(leaves_of(c))}, {}, plan.missing_sessions};
+        RestoreEntry entry{
+            {c.entries.size(), merkle_root(leaves_of(c))}, {}, plan.missing_sessions};
         for (const auto& [size, one] : lost) entry.lost.push_back(one);
         return entry;
       },

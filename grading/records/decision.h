@@ -1,5 +1,6 @@
-// What the program leaves to a person: results whose verdict is `review`. A person decides each one; the decision is an entry of its own, a new
-// result beside the one that it decides, and waits for its release as a regrade does.
+// What the program leaves to a person: results whose verdict is `review`. A person decides each
+// one; the decision is an entry of its own, a new result beside the one that it decides, and waits
+// for its release as a regrade does.
 #pragma once
 
 #include <string>
@@ -31,11 +32,13 @@ struct Decision {
 };
 /// Throws Error for another word than pass or fail.
 [[nodiscard]] grading::Verdict decided_verdict(const std::string& word);
-/// Enters the decision on the result that counts of the session of entry `session`. Throws Error when that is not `review` (any more) and no appeal
-/// against it is open, a makeup sitting counts in its place, or a text is empty, too long or no plain line.
+/// Enters the decision on the result that counts of the session of entry `session`. Throws Error
+/// when that is not `review` (any more) and no appeal against it is open, a makeup sitting counts
+/// in its place, or a text is empty, too long or no plain line.
 const LedgerEntry& enter_decision(Ledger& ledger, std::uint64_t session, const Decision& decision);
 
-/// The verdict that the program gave to the result in `entry`, below all that persons decided on it since it was marked; empty without a result.
+/// The verdict that the program gave to the result in `entry`, below all that persons decided on it
+/// since it was marked; empty without a result.
 [[nodiscard]] std::string verdict_by_program(const FiledSession& session, std::uint64_t entry);
 
 }  // namespace cavum::records

@@ -1,5 +1,6 @@
-// What an entry of the ledger says: a struct for each kind, and the variant of them all. Whoever reads entries visits the variant, so that a new kind
-// does not compile until each reader has an answer for it. As text they are written and read in entry_text.h alone.
+// What an entry of the ledger says: a struct for each kind, and the variant of them all. Whoever
+// reads entries visits the variant, so that a new kind does not compile until each reader has an
+// answer for it. As text they are written and read in entry_text.h alone.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +18,8 @@
 
 namespace cavum::records {
 
-/// On whose behalf an entry is made: a person of the office by the name of his account, or an enrolled station that asked; and why, as the person
-/// wrote it. Each may be empty.
+/// On whose behalf an entry is made: a person of the office by the name of his account, or an
+/// enrolled station that asked; and why, as the person wrote it. Each may be empty.
 struct Actor {
   std::string account;
   std::string reason;
@@ -76,20 +77,23 @@ struct SessionEntry {
   std::string file_sha256, chain_sha256, station_key;  ///< hexadecimal
   std::string nonce;                                   ///< of its ticket; empty without one
   MotionSource source;                                 ///< what moved the stylus in the beginning
-  std::string simulated;                               ///< what moved it instead of a hand; empty for people
-  std::int64_t begun_utc_ns = 0, closed_utc_ns = 0;    ///< by the station's clock
+  std::string simulated;  ///< what moved it instead of a hand; empty for people
+  std::int64_t begun_utc_ns = 0, closed_utc_ns = 0;  ///< by the station's clock
   std::int64_t ticks = 0;
   Findings findings;
-  std::int64_t grading_version = 0, physics_version = 0;  ///< that marked it on filing, that it was recorded under
-  Opening result;                                         ///< the school's own mark; null when it could not be marked
-  std::optional<Opening> sealed;                          ///< the JSON text of the result that the station sealed, where that is another
+  std::int64_t grading_version = 0,
+               physics_version = 0;  ///< that marked it on filing, that it was recorded under
+  Opening result;                    ///< the school's own mark; null when it could not be marked
+  std::optional<Opening>
+      sealed;  ///< the JSON text of the result that the station sealed, where that is another
 };
 /// A result beside the others of that session: marked anew, or decided by a person.
 struct RegradeEntry {
   static constexpr char k_kind[] = "regrade";
   std::uint64_t session = 0;
   Opening result;
-  std::map<std::string, std::string> by;  ///< SHA-256 (hexadecimal) of documents by their names: `rubric.toml`, `scenario.toml`, `attachment/NAME`
+  std::map<std::string, std::string> by;  ///< SHA-256 (hexadecimal) of documents by their names:
+                                          ///< `rubric.toml`, `scenario.toml`, `attachment/NAME`
   std::string person;                     ///< who decided; empty: it was marked
 };
 /// Results, by the entries that hold them, go out, or are taken back.
@@ -153,10 +157,11 @@ struct SeatsEntry {
 /// A score that a learning platform has answered. No points and no person.
 struct PassbackEntry {
   static constexpr char k_kind[] = "passback";
-  std::uint64_t session = 0, result = 0;  ///< entries; result 0: the platform was to clear its score
-  std::string platform, line_item;        ///< issuer; address of the column
-  int status = 0;                         ///< of HTTP
-  std::string answer;                     ///< the platform's words, one line
+  std::uint64_t session = 0,
+                result = 0;         ///< entries; result 0: the platform was to clear its score
+  std::string platform, line_item;  ///< issuer; address of the column
+  int status = 0;                   ///< of HTTP
+  std::string answer;               ///< the platform's words, one line
   [[nodiscard]] bool accepted() const { return status >= 200 && status <= 299; }
 };
 
@@ -191,9 +196,10 @@ struct SizeAndRoot {
 /// The ledger goes on from a backup here.
 struct RestoreEntry {
   static constexpr char k_kind[] = "restore";
-  SizeAndRoot backup;                         ///< of the entries before this one
-  std::vector<SizeAndRoot> lost;              ///< what anything at hand had seen of later entries, by size
-  std::vector<std::string> missing_sessions;  ///< filed, and not in the backup: SHA-256 of their files
+  SizeAndRoot backup;             ///< of the entries before this one
+  std::vector<SizeAndRoot> lost;  ///< what anything at hand had seen of later entries, by size
+  std::vector<std::string>
+      missing_sessions;  ///< filed, and not in the backup: SHA-256 of their files
 };
 
 /// A one-time code was given out for a station of this name.
@@ -216,8 +222,9 @@ struct StationRequest {
 };
 struct SignedRequest {
   StationRequest request;
-  std::string signature;                      ///< by the station's key
-  std::string code_signature, old_signature;  ///< one of them: by the code's key, or by the key that is replaced
+  std::string signature;  ///< by the station's key
+  std::string code_signature,
+      old_signature;  ///< one of them: by the code's key, or by the key that is replaced
 };
 struct EnrolEntry {
   static constexpr char k_kind[] = "enrol";
@@ -233,9 +240,11 @@ struct RoomEntry {
   std::string public_key, room;
 };
 
-using Entry = std::variant<InitEntry, TicketEntry, CancelEntry, BeginEntry, SessionEntry, RegradeEntry, ReleaseEntry, RetractEntry, AppealEntry,
-                           AnswerEntry, AnnounceEntry, HoldEntry, GoOnEntry, IncidentEntry, SeatsEntry, PassbackEntry, EraseEntry, ForgetEntry,
-                           KeyEntry, RestoreEntry, InviteEntry, EnrolEntry, RevokeEntry, RoomEntry>;
+using Entry =
+    std::variant<InitEntry, TicketEntry, CancelEntry, BeginEntry, SessionEntry, RegradeEntry,
+                 ReleaseEntry, RetractEntry, AppealEntry, AnswerEntry, AnnounceEntry, HoldEntry,
+                 GoOnEntry, IncidentEntry, SeatsEntry, PassbackEntry, EraseEntry, ForgetEntry,
+                 KeyEntry, RestoreEntry, InviteEntry, EnrolEntry, RevokeEntry, RoomEntry>;
 
 /// One entry of a ledger.
 struct LedgerEntry {

@@ -15,9 +15,11 @@ namespace cavum::records {
 
 using nlohmann::json;
 
-constexpr auto names_of(Part) { return std::array{said("motion"), said("result"), said("sealed"), said("words")}; }
-constexpr auto names_of(FirstSitting) { return std::array{said("missed"), said("interrupted")}; }
-constexpr auto names_of(Outcome) { return std::array{said("stands"), said("changed")}; }
+constexpr auto names_of(Part) {
+  return std::array{noop("motion"), noop("result"), noop("sealed"), noop("words")};
+}
+constexpr auto names_of(FirstSitting) { return std::array{noop("missed"), noop("interrupted")}; }
+constexpr auto names_of(Outcome) { return std::array{noop("stands"), noop("changed")}; }
 
 /// A time as text, bytes as hexadecimal digits, and an opening as its hash.
 template <class Ns>
@@ -37,19 +39,19 @@ AsHex<Bytes> as_hex(Bytes& bytes) {
   return {bytes};
 }
 json write_json(const AsUtc<const std::int64_t>& t) { return utc_text(t.ns); }
-void read_json(const json& from, const JsonPlace& at, const AsUtc<std::int64_t>& t) {
+void read_json(const json& from, const JsonLocation& at, const AsUtc<std::int64_t>& t) {
   std::string text;
   read_json_value(from, at, text);
   t.ns = parse_utc(text, at.text());
 }
 json write_json(const AsHex<const Sha256>& hash) { return to_hex(hash.bytes); }
-void read_json(const json& from, const JsonPlace& at, const AsHex<Sha256>& hash) {
+void read_json(const json& from, const JsonLocation& at, const AsHex<Sha256>& hash) {
   std::string text;
   read_json_value(from, at, text);
   hash.bytes = fixed_from_hex<sizeof(Sha256)>(text, at.text());
 }
 json write_json(const Opening& o) { return o.sha256; }
-void read_json(const json& from, const JsonPlace& at, Opening& o) {
+void read_json(const json& from, const JsonLocation& at, Opening& o) {
   Sha256 hash{};
   read_json(from, at, as_hex(hash));
   o.sha256 = to_hex(hash);
@@ -124,7 +126,9 @@ void body_fields(Of& of, Said& e) {
 
 namespace {
 
-JsonSource source_of(const Where& where) { return {where, msg("use an intact copy"), true, 1U << 20, 1'000'000}; }
+JsonSource source_of(const Where& where) {
+  return {where, msg("use an intact copy"), true, 1U << 20, 1'000'000};
+}
 
 /// Notes where the openings are.
 struct FindOpenings {
@@ -145,10 +149,12 @@ struct FindOpenings {
 Entry entry_of_kind(const std::string& kind, const JsonSource& source) {
   Entry out;
   const auto becomes = [&]<std::size_t... I>(std::index_sequence<I...>) {
-    return ((kind == std::variant_alternative_t<I, Entry>::k_kind && (out.emplace<I>(), true)) || ...);
+    return ((kind == std::variant_alternative_t<I, Entry>::k_kind && (out.emplace<I>(), true)) ||
+            ...);
   };
   if (!becomes(std::make_index_sequence<std::variant_size_v<Entry>>()))
-    JsonPlace{source, "kind"}.refuse(msg("is a kind that this version does not know: '{}'", one_line(kind.substr(0, 80))));
+    JsonLocation{source, "kind"}.refuse(
+        msg("is a kind that this version does not know: '{}'", one_line(kind.substr(0, 80))));
   return out;
 }
 
@@ -156,7 +162,11 @@ Entry entry_of_kind(const std::string& kind, const JsonSource& source) {
 
 std::string entry_text(const LedgerEntry& e) {
   const auto body = json_inside([&](auto& of) { body_fields(of, e); });
-  return json{{"body", to_json_value(body)}, {"kind", kind_name(*e.what)}, {"seq", e.seq}, {"utc_ns", e.utc_ns}}.dump();
+  return json{{"body", to_json_value(body)},
+              {"kind", kind_name(*e.what)},
+              {"seq", e.seq},
+              {"utc_ns", e.utc_ns}}
+      .dump();
 }
 
 LedgerEntry read_entry(const std::string& text, const Where& where) {

@@ -1,4 +1,5 @@
-// Entries as text: JSON with keys in order and no spaces, docs/formats/ledger.md. Kinds, members and the words of enums have their names here alone.
+// Entries as text: JSON with keys in order and no spaces, docs/formats/ledger.md. Kinds, members
+// and the words of enums have their names here alone.
 #pragma once
 
 #include <map>
@@ -10,10 +11,11 @@
 
 namespace cavum::records {
 
-/// The text that is hashed, {"body":…,"kind":…,"seq":…,"utc_ns":…}, of an entry that says something.
+/// The text that is hashed, {"body":…,"kind":…,"seq":…,"utc_ns":…}, of an entry that says
+/// something.
 [[nodiscard]] std::string entry_text(const LedgerEntry& entry);
-/// What a text says; openings have their hashes alone. Throws Error(`where`, ...), which names what is missing, too long, of another type, or more
-/// than its kind has.
+/// What a text says; openings have their hashes alone. Throws Error(`where`, ...), which names what
+/// is missing, too long, of another type, or more than its kind has.
 [[nodiscard]] LedgerEntry read_entry(const std::string& text, const Where& where);
 /// The same of a text from elsewhere; an entry that says nothing where it cannot be read.
 [[nodiscard]] LedgerEntry read_entry_or_none(const std::string& text) noexcept;
@@ -31,7 +33,8 @@ template <class Value>
 template <class Value>
 [[nodiscard]] Value value_in(const nlohmann::json& j, const Where& where);
 
-/// Of Part, FirstSitting and Outcome: its word, and the value of a word. Throws Error(`where`, ...) for another.
+/// Of Part, FirstSitting and Outcome: its word, and the value of a word. Throws Error(`where`, ...)
+/// for another.
 template <class Enum>
 [[nodiscard]] const char* word_of(Enum value);
 template <class Enum>

@@ -13,7 +13,8 @@ using nlohmann::json;
 ExamScale scale_in(const json& result) {
   const json& score = member_of(result, "score");
   if (!member_of(score, "max").is_number()) return {};
-  return {score.at("max").get<double>(), score.value("pass_percent", 0.0), score.value("borderline_percent", 0.0)};
+  return {score.at("max").get<double>(), score.value("pass_percent", 0.0),
+          score.value("borderline_percent", 0.0)};
 }
 
 std::map<std::string, ExamScale> own_scales(const Registry& registry) {
@@ -22,7 +23,8 @@ std::map<std::string, ExamScale> own_scales(const Registry& registry) {
     const ExamScale scale = scale_in(*s.filed);
     if (scale.max <= 0) continue;
     auto& of_exam = found[s.scenario_id];
-    const auto at = std::find_if(of_exam.begin(), of_exam.end(), [&](const auto& f) { return f.first == scale; });
+    const auto at = std::find_if(of_exam.begin(), of_exam.end(),
+                                 [&](const auto& f) { return f.first == scale; });
     if (at == of_exam.end())
       of_exam.emplace_back(scale, 1);
     else
@@ -30,7 +32,9 @@ std::map<std::string, ExamScale> own_scales(const Registry& registry) {
   }
   std::map<std::string, ExamScale> out;
   for (const auto& [exam, scales] : found)
-    out[exam] = std::max_element(scales.begin(), scales.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+    out[exam] = std::max_element(scales.begin(), scales.end(), [](const auto& a, const auto& b) {
+                  return a.second < b.second;
+                })->first;
   return out;
 }
 

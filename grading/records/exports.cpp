@@ -10,7 +10,7 @@
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/json_struct.h"
-#include "engine/base/said_by.h"
+#include "engine/base/message_from.h"
 #include "engine/base/text.h"
 #include "engine/session/session.h"
 #include "grading/records/history.h"
@@ -28,10 +28,13 @@ constexpr char k_simulated[] = "SIMULATED";
 
 /// What stands before verdict and feedback of a result that no student sat.
 std::string simulated_mark(const FiledSession& s) {
-  return s.simulated.empty() ? "" : fmt::format("{} (operator {}, no student sat this): ", k_simulated, one_line(s.simulated));
+  return s.simulated.empty() ? ""
+                             : fmt::format("{} (operator {}, no student sat this): ", k_simulated,
+                                           one_line(s.simulated));
 }
 
-/// Whose row it is: the school's own number, or a simulated operator's, whom no gradebook knows. Empty when nobody knows who sat.
+/// Whose row it is: the school's own number, or a simulated operator's, whom no gradebook knows.
+/// Empty when nobody knows who sat.
 std::string number_of(const FiledSession& s, Identities& identities) {
   if (!s.simulated.empty()) return fmt::format("{} {}", k_simulated, s.candidate);
   const auto identity = identities.of_pseudonym(s.candidate);
@@ -45,7 +48,8 @@ Bytes results_message(const json& facts) {
 
 }  // namespace
 
-std::string moodle_csv(const Registry& registry, Identities& identities, int& left_out, Wording say, bool with_simulated) {
+std::string moodle_csv(const Registry& registry, Identities& identities, int& left_out, Wording say,
+                       bool with_simulated) {
   struct Columns {
     std::vector<std::string> criteria;
     std::map<std::string, const FiledSession*> by_number;
@@ -63,7 +67,8 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
       numbers.insert(number), exam.by_number[number] = &s;
     if (exported_grade(s, scales).by_another_rubric) continue;
     for (const auto& c : s.shown->at("criteria"))
-      if (const std::string id = c.at("id"); std::find(exam.criteria.begin(), exam.criteria.end(), id) == exam.criteria.end())
+      if (const std::string id = c.at("id");
+          std::find(exam.criteria.begin(), exam.criteria.end(), id) == exam.criteria.end())
         exam.criteria.push_back(id);
   }
   left_out = static_cast<int>(unknown.size());
@@ -86,7 +91,8 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
       const json& result = *found->second->shown;
       const std::string mark = simulated_mark(*found->second);
       const ExportedGrade g = exported_grade(*found->second, scales);
-      out += fmt::format(",{},{},{}", number_in(g.grade), csv_field(mark + g.verdict), number_in(g.points));
+      out += fmt::format(",{},{},{}", number_in(g.grade), csv_field(mark + g.verdict),
+                         number_in(g.points));
       for (const auto& wanted : exam.criteria) {
         out += ",";
         for (const auto& c : result.at("criteria"))
@@ -99,11 +105,14 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
   return out;
 }
 
-json lti_scores(const Registry& registry, Identities& identities, Wording say, bool with_simulated) {
-  std::map<std::pair<std::string, std::string>, const FiledSession*> last;  // of several attempts the last one that is released, else the last
+json lti_scores(const Registry& registry, Identities& identities, Wording say,
+                bool with_simulated) {
+  std::map<std::pair<std::string, std::string>, const FiledSession*>
+      last;  // of several attempts the last one that is released, else the last
   for (const auto& s : registry.sessions) {
     if ((!s.simulated.empty() && !with_simulated) || s.made_up_by) continue;
-    const std::string user = s.simulated.empty() ? number_of(s, identities) : "simulated:" + s.candidate;
+    const std::string user =
+        s.simulated.empty() ? number_of(s, identities) : "simulated:" + s.candidate;
     if (user.empty()) continue;  // the platform knows nobody by a pseudonym
     const FiledSession*& counts = last[{s.scenario_id, user}];
     if (counts == nullptr || s.shown->is_object() || !counts->shown->is_object()) counts = &s;
@@ -112,7 +121,8 @@ json lti_scores(const Registry& registry, Identities& identities, Wording say, b
   json out = json::array();
   for (const auto& [key, s] : last) {
     const bool shown = s->shown->is_object();
-    const bool review = s->result->is_object() && grading::verdict_in(*s->result) == grading::Verdict::review;
+    const bool review =
+        s->result->is_object() && grading::verdict_in(*s->result) == grading::Verdict::review;
     json score = {{"userId", key.second},
                   {"timestamp", utc_ms_text(shown ? s->released_utc_ns : s->received_utc_ns)},
                   {"activityProgress", "Completed"},
@@ -136,8 +146,9 @@ json lti_scores(const Registry& registry, Identities& identities, Wording say, b
 }
 
 std::size_t released_simulated(const Registry& registry) {
-  return static_cast<std::size_t>(std::count_if(registry.sessions.begin(), registry.sessions.end(),
-                                                [](const FiledSession& s) { return !s.simulated.empty() && !s.shown->is_null(); }));
+  return static_cast<std::size_t>(std::count_if(
+      registry.sessions.begin(), registry.sessions.end(),
+      [](const FiledSession& s) { return !s.simulated.empty() && !s.shown->is_null(); }));
 }
 
 std::string signed_results(const Registry& registry, const Ledger& ledger) {
@@ -159,13 +170,15 @@ std::string signed_results(const Registry& registry, const Ledger& ledger) {
   json facts = {{"results", results},
                 {"ledger", ledger.content().id},
                 {"public_key", ledger.content().public_key},
-                {"checkpoint", checkpoint_note(ledger.content().id, ledger.content().key_of(p.size), p, cosignatures_of(ledger.content(), p.size))}};
+                {"checkpoint", checkpoint_note(ledger.content().id, ledger.content().key_of(p.size),
+                                               p, cosignatures_of(ledger.content(), p.size))}};
   const std::string signature = to_hex(ledger.key().sign(results_message(facts)));
   facts["signature"] = signature;
   return facts.dump();
 }
 
-Findings check_results(const std::string& text, const std::string& public_key, const LedgerContent* ledger) {
+Findings check_results(const std::string& text, const std::string& public_key,
+                       const LedgerContent* ledger) {
   Findings findings;
   try {
     json facts = parse_json(text, msg("results"));
@@ -174,14 +187,17 @@ Findings check_results(const std::string& text, const std::string& public_key, c
     const std::string key = facts.at("public_key");
     const auto signature = fixed_from_hex<64>(facts.at("signature"), msg("signature"));
     facts.erase("signature");
-    if (ledger == nullptr && !public_key.empty() && key != public_key) findings.push_back(finding<FindingKind::results_other_school>());
+    if (ledger == nullptr && !public_key.empty() && key != public_key)
+      findings.push_back(finding<FindingKind::results_other_school>());
     if (!is_signed_by(fixed_from_hex<32>(key, "public_key"), results_message(facts), signature))
       findings.push_back(finding<FindingKind::results_signature>());
     if (ledger != nullptr) {
       const std::string id = facts.at("ledger");
       const Checkpoint seen = checkpoint_in(facts.at("checkpoint"), id, key, msg("results"));
-      if (key != ledger->key_of(seen.size)) findings.push_back(finding<FindingKind::results_other_key>());
-      if (!is_signed_by_school(id, key, seen)) findings.push_back(finding<FindingKind::results_checkpoint>());
+      if (key != ledger->key_of(seen.size))
+        findings.push_back(finding<FindingKind::results_other_key>());
+      if (!is_signed_by_school(id, key, seen))
+        findings.push_back(finding<FindingKind::results_checkpoint>());
       check_history(*ledger, id, seen, msg("the export"), findings);
     }
   } catch (const json::exception&) {
@@ -189,7 +205,7 @@ Findings check_results(const std::string& text, const std::string& public_key, c
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
-    findings.push_back(finding<FindingKind::results_unreadable>(said_by(e)));
+    findings.push_back(finding<FindingKind::results_unreadable>(message_from(e)));
   }
   return findings;
 }
@@ -201,12 +217,16 @@ std::string tidy_csv(const Registry& registry) {
   for (const auto& s : registry.sessions) {
     if (!s.result->is_object()) continue;
     for (const auto& c : s.result->at("criteria"))
-      out += std::to_string(s.seq) + "," + csv_field(s.candidate) + "," + csv_field(s.scenario_id) + "," + csv_field(s.station_key.substr(0, 16)) +
-             "," + csv_field(s.simulated) + "," + (s.result_seq != s.seq ? "1" : "0") + "," + std::to_string(s.findings.size()) + "," +
-             std::to_string(s.contested_by.size()) + "," + (s.chosen ? "1" : "0") + "," + (s.makes_up ? std::to_string(s.makes_up->ticket) : "") +
-             "," + (s.made_up_by ? std::to_string(*s.made_up_by) : "") + "," + csv_field(s.result->value("verdict", "")) + "," +
-             (s.released ? "1" : "0") + "," + csv_field(c.value("id", "")) + "," + csv_field(c.value("metric", "")) + "," + number_in(c.at("value")) +
-             "," + csv_field(c.value("unit", "")) + "," + number_in(c.at("points")) + "," + number_in(c.at("max")) + "\n";
+      out += std::to_string(s.seq) + "," + csv_field(s.candidate) + "," + csv_field(s.scenario_id) +
+             "," + csv_field(s.station_key.substr(0, 16)) + "," + csv_field(s.simulated) + "," +
+             (s.result_seq != s.seq ? "1" : "0") + "," + std::to_string(s.findings.size()) + "," +
+             std::to_string(s.contested_by.size()) + "," + (s.chosen ? "1" : "0") + "," +
+             (s.makes_up ? std::to_string(s.makes_up->ticket) : "") + "," +
+             (s.made_up_by ? std::to_string(*s.made_up_by) : "") + "," +
+             csv_field(s.result->value("verdict", "")) + "," + (s.released ? "1" : "0") + "," +
+             csv_field(c.value("id", "")) + "," + csv_field(c.value("metric", "")) + "," +
+             number_in(c.at("value")) + "," + csv_field(c.value("unit", "")) + "," +
+             number_in(c.at("points")) + "," + number_in(c.at("max")) + "\n";
   }
   return out;
 }

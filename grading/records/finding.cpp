@@ -13,7 +13,8 @@ Finding Finding::in_entry(std::uint64_t seq) const {
 }
 
 Message Finding::message() const {
-  const Message sentence = entry ? msg("entry {}: {}", *entry, TableFact::message()) : TableFact::message();
+  const Message sentence =
+      entry ? msg("entry {}: {}", *entry, TableFact::message()) : TableFact::message();
   return where.empty() ? sentence : msg("{}: {}", where, sentence);
 }
 
@@ -44,7 +45,7 @@ json write_json(const Finding& f) {
   return out;
 }
 
-void read_json(const json& from, const JsonPlace& at, Finding& f) {
+void read_json(const json& from, const JsonLocation& at, Finding& f) {
   json fact;
   auto all = json_inside([&](auto& of) {
     of("kind", fact["kind"]), of("values", fact["values"]);

@@ -1,5 +1,6 @@
-// What is found wrong with a ledger, or with a recording, receipt, note or backup that is held against it; what is proved of a recording; and what
-// else is to be known. What could not be checked is of the group of the trouble that it might have shown. One table has all kinds.
+// What is found wrong with a ledger, or with a recording, receipt, note or backup that is held
+// against it; what is proved of a recording; and what else is to be known. What could not be
+// checked is of the group of the trouble that it might have shown. One table has all kinds.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,12 +11,13 @@
 #include "engine/session/damage.h"
 
 namespace cavum {
-struct JsonPlace;
+struct JsonLocation;
 }
 
 namespace cavum::records {
 
-// KIND(kind, group, English sentence, names of its values); `why` is what an error said. The damages of a recording stand first.
+// KIND(kind, group, English sentence, names of its values); `why` is what an error said. The
+// damages of a recording stand first.
 // clang-format off
 #define CAVUM_LEDGER_FINDINGS(KIND) \
   CAVUM_DAMAGES(KIND) \
@@ -216,12 +218,16 @@ namespace cavum::records {
 CAVUM_FACTS(FindingKind, CAVUM_LEDGER_FINDINGS)
 
 struct Finding : TableFact<FindingKind> {
-  std::optional<std::uint64_t> entry = {};  ///< of the ledger that is checked, where it is about one
-  std::string where = {};                   ///< the file that it is about, where that was named
+  std::optional<std::uint64_t> entry =
+      {};                  ///< of the ledger that is checked, where it is about one
+  std::string where = {};  ///< the file that it is about, where that was named
 
   Finding() = default;
-  Finding(TableFact<FindingKind> of) : TableFact(std::move(of)) {}  // NOLINT(google-explicit-constructor)
-  Finding(const Damage& damage) : TableFact{static_cast<FindingKind>(damage.kind), damage.values} {}  // NOLINT(google-explicit-constructor)
+  Finding(TableFact<FindingKind> of)
+      : TableFact(std::move(of)) {}  // NOLINT(google-explicit-constructor)
+  Finding(const Damage& damage)
+      : TableFact{static_cast<FindingKind>(damage.kind), damage.values} {
+  }  // NOLINT(google-explicit-constructor)
   [[nodiscard]] Finding in_entry(std::uint64_t seq) const;
   /// "receipt.json: entry 7: ..."
   [[nodiscard]] Message message() const;
@@ -245,6 +251,6 @@ void append(Findings& to, const Damages& more);
 void to_json(nlohmann::json& json, const Finding& finding);
 // As our own files keep it: {"kind", "values", "entry", "where"}.
 [[nodiscard]] nlohmann::json write_json(const Finding& finding);
-void read_json(const nlohmann::json& from, const JsonPlace& at, Finding& finding);
+void read_json(const nlohmann::json& from, const JsonLocation& at, Finding& finding);
 
 }  // namespace cavum::records

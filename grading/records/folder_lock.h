@@ -1,4 +1,5 @@
-// One program at a time in a folder that several may change: who comes second waits. The lock goes with the program that holds it.
+// One program at a time in a folder that several may change: who comes second waits. The lock goes
+// with the program that holds it.
 #pragma once
 
 #include <fcntl.h>
@@ -16,7 +17,8 @@ namespace cavum::records {
 
 class FolderLock {
  public:
-  /// Waits until nobody else holds `folder`. Throws Error when it cannot be locked; `what` and `what_to_do` say what that means there.
+  /// Waits until nobody else holds `folder`. Throws Error when it cannot be locked; `what` and
+  /// `what_to_do` say what that means there.
   FolderLock(const std::string& folder, const Message& what, const Message& what_to_do)
       : fd_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
     if (fd_ >= 0 && ::flock(fd_, LOCK_EX) == 0) return;

@@ -21,14 +21,19 @@ namespace cavum::records {
 namespace {
 
 /// What the row says, as far as it can be read; else a finding.
-LedgerEntry parse_entry(std::uint64_t seq, const std::string& text, const Sha256& leaf, Findings& findings) {
-  if (leaf_hash(ledger_bytes(text)) != leaf) findings.push_back(finding<FindingKind::entry_changed>().in_entry(seq));
+LedgerEntry parse_entry(std::uint64_t seq, const std::string& text, const Sha256& leaf,
+                        Findings& findings) {
+  if (leaf_hash(ledger_bytes(text)) != leaf)
+    findings.push_back(finding<FindingKind::entry_changed>().in_entry(seq));
   LedgerEntry e;
   try {
     e = read_entry(text, msg("entry {}", seq));
-    if (entry_text(e) != text) findings.push_back(finding<FindingKind::entry_malformed>().in_entry(seq));
-    if (e.seq != seq) findings.push_back(finding<FindingKind::entry_out_of_order>(e.seq).in_entry(seq));
-    if (e.as<InitEntry>() != nullptr && seq != 0) findings.push_back(finding<FindingKind::begins_again>().in_entry(seq));
+    if (entry_text(e) != text)
+      findings.push_back(finding<FindingKind::entry_malformed>().in_entry(seq));
+    if (e.seq != seq)
+      findings.push_back(finding<FindingKind::entry_out_of_order>(e.seq).in_entry(seq));
+    if (e.as<InitEntry>() != nullptr && seq != 0)
+      findings.push_back(finding<FindingKind::begins_again>().in_entry(seq));
   } catch (const Error& wrong) {
     findings.push_back(finding<FindingKind::entry_unreadable>(wrong.problem()).in_entry(seq));
     e.text = text;
@@ -40,10 +45,14 @@ LedgerEntry parse_entry(std::uint64_t seq, const std::string& text, const Sha256
 
 /// A table that was taken out is a finding of check_schema; the others are read all the same.
 bool has_table(Database& db, const std::string& name) {
-  return db.integer(fmt::format("SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = '{}'", name).c_str()) == 1;
+  return db.integer(
+             fmt::format("SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = '{}'",
+                         name)
+                 .c_str()) == 1;
 }
 
-/// Puts what openings hold into the entries. Each must be as it was bound, named by one entry, and be gone when, and only when, an entry says so.
+/// Puts what openings hold into the entries. Each must be as it was bound, named by one entry, and
+/// be gone when, and only when, an entry says so.
 void take_openings(LedgerContent& c, const std::map<std::string, std::string>& stored) {
   c.erased = read_erased(c.entries, c.findings);
   std::set<std::string> named;
@@ -55,8 +64,10 @@ void take_openings(LedgerContent& c, const std::map<std::string, std::string>& s
       const bool there = found != stored.end();
       const auto by = erased_by(c.erased, e.seq, part);
       named.insert(opening->sha256);
-      if (!there && !by) c.findings.push_back(finding<FindingKind::part_missing>(name).in_entry(e.seq));
-      if (there && by) c.findings.push_back(finding<FindingKind::part_there_again>(name, *by).in_entry(e.seq));
+      if (!there && !by)
+        c.findings.push_back(finding<FindingKind::part_missing>(name).in_entry(e.seq));
+      if (there && by)
+        c.findings.push_back(finding<FindingKind::part_there_again>(name, *by).in_entry(e.seq));
       if (!there) continue;
       try {
         opening->value = opened_value(found->second, opening->sha256, msg("opening"));
@@ -84,7 +95,8 @@ void read_documents(Database& db, LedgerContent& c) {
     while (rows.step()) {
       const std::string hash = to_hex(rows.fixed_blob<32>(0));
       Bytes bytes = rows.blob(1);
-      if (to_hex(sha256(bytes)) != hash) c.findings.push_back(finding<FindingKind::document_changed>(hash));
+      if (to_hex(sha256(bytes)) != hash)
+        c.findings.push_back(finding<FindingKind::document_changed>(hash));
       c.documents[hash] = std::move(bytes);
     }
   }
@@ -93,7 +105,8 @@ void read_documents(Database& db, LedgerContent& c) {
     if (const auto* regrade = e.as<RegradeEntry>())
       for (const auto& [name, hash] : regrade->by) {
         named.insert(hash);
-        if (!c.documents.contains(hash)) c.findings.push_back(finding<FindingKind::document_missing>(name).in_entry(e.seq));
+        if (!c.documents.contains(hash))
+          c.findings.push_back(finding<FindingKind::document_missing>(name).in_entry(e.seq));
       }
   for (const auto& [hash, bytes] : c.documents)
     if (!named.contains(hash)) c.findings.push_back(finding<FindingKind::document_foreign>(hash));
@@ -108,7 +121,8 @@ StoredNotes stored_notes(Database& db) {
   const auto read = [&](const char* table, const char* sql, auto& into) {
     if (!has_table(db, table)) return;
     auto rows = db.prepare(sql);
-    while (rows.step()) into.emplace_back(static_cast<std::uint64_t>(rows.integer(0)), rows.text(1));
+    while (rows.step())
+      into.emplace_back(static_cast<std::uint64_t>(rows.integer(0)), rows.text(1));
   };
   read("note", "SELECT size, text FROM note ORDER BY size", out.notes);
   read("cosignature", "SELECT size, line FROM cosignature ORDER BY size, line", out.cosignatures);
@@ -120,7 +134,8 @@ void take_notes(LedgerContent& c, const StoredNotes& stored) {
     const Message name = msg("checkpoint {}", size);
     try {
       const ReadCheckpoint read = parse_checkpoint(text, c.key_of(size), name);
-      if (read.ledger_id != c.id || read.checkpoint.size != size || text != checkpoint_note(c.id, c.key_of(size), read.checkpoint))
+      if (read.ledger_id != c.id || read.checkpoint.size != size ||
+          text != checkpoint_note(c.id, c.key_of(size), read.checkpoint))
         c.findings.push_back(finding<FindingKind::note_changed>(size));
       c.checkpoints.push_back(read.checkpoint);
     } catch (const Error& e) {
@@ -128,7 +143,8 @@ void take_notes(LedgerContent& c, const StoredNotes& stored) {
     }
   }
   for (const auto& [size, line] : stored.cosignatures) {
-    const Message name = msgn("cosignature under {} entry", "cosignature under {} entries", static_cast<std::int64_t>(size), size);
+    const Message name = msgn("cosignature under {} entry", "cosignature under {} entries",
+                              static_cast<std::int64_t>(size), size);
     try {
       c.cosignatures.push_back({size, parse_signature_line(line, name)});
     } catch (const Error& e) {
@@ -146,7 +162,8 @@ LedgerEntry make_entry(std::uint64_t seq, Entry what, Actor by) {
   e.by = std::move(by);
   e.what = std::move(what);
   e.text = entry_text(e);
-  static_cast<void>(read_entry(e.text, msg("entry {}", seq)));  // nothing is entered that could not be read
+  static_cast<void>(
+      read_entry(e.text, msg("entry {}", seq)));  // nothing is entered that could not be read
   e.leaf = leaf_hash(ledger_bytes(e.text));
   return e;
 }
@@ -168,8 +185,8 @@ LedgerContent read_content(Database& db, const std::string& where, AskWitness as
   require_ledger(db, where);
   LedgerContent c;
   check_schema(db, c.findings);
-  // The witness first: it is told after each entry, so what it knows by now is in the database by then. One snapshot of the tables for the same
-  // reason.
+  // The witness first: it is told after each entry, so what it knows by now is in the database by
+  // then. One snapshot of the tables for the same reason.
   const bool has_entries = has_table(db, "entry");
   const std::string first = has_entries ? db.text("SELECT text FROM entry WHERE seq = 0") : "";
   const LedgerEntry begin = read_entry_or_none(first);
@@ -183,7 +200,8 @@ LedgerContent read_content(Database& db, const std::string& where, AskWitness as
     auto rows = db.prepare("SELECT seq, text, leaf_sha256 FROM entry ORDER BY seq");
     for (std::uint64_t expected = 0; rows.step(); ++expected) {
       const auto seq = static_cast<std::uint64_t>(rows.integer(0));
-      if (seq != expected) c.findings.push_back(finding<FindingKind::entry_missing>().in_entry(expected));
+      if (seq != expected)
+        c.findings.push_back(finding<FindingKind::entry_missing>().in_entry(expected));
       expected = seq;
       c.entries.push_back(parse_entry(seq, rows.text(1), rows.fixed_blob<32>(2), c.findings));
     }
@@ -206,29 +224,34 @@ LedgerContent read_content(Database& db, const std::string& where, AskWitness as
   check_witness(c, witnessed);
   std::int64_t before = 0;
   for (const auto& e : c.entries) {
-    if (e.utc_ns < before) c.remarks.push_back(finding<FindingKind::clock_set_back>().in_entry(e.seq));
+    if (e.utc_ns < before)
+      c.remarks.push_back(finding<FindingKind::clock_set_back>().in_entry(e.seq));
     before = e.utc_ns;
   }
   return c;
 }
 
-bool holds_parts_of_a_ledger(const LedgerPlaces& places) {
+bool holds_parts_of_a_ledger(const LedgerPaths& places) {
   std::error_code none;
   const std::filesystem::directory_iterator sessions(places.folder + "/sessions", none);
-  return std::filesystem::exists(places.identities(), none) || sessions != std::filesystem::directory_iterator();
+  return std::filesystem::exists(places.identities(), none) ||
+         sessions != std::filesystem::directory_iterator();
 }
 
-LedgerContent read_ledger(const LedgerPlaces& places, AskWitness ask) {
+LedgerContent read_ledger(const LedgerPaths& places, AskWitness ask) {
   if (!std::filesystem::exists(places.database()))
-    throw Error(code_of_none(places.database()), Name{places.folder}, msg("holds no ledger"), instead_of_none(places.database()));
+    throw Error(code_of_none(places.database()), Name{places.folder}, msg("holds no ledger"),
+                instead_of_none(places.database()));
   try {
     Database live = Database::open(places.database(), false, k_long_wait);
     return read_content(live, places.database(), ask);
-  } catch (const DatabaseError&) {  // a folder that may only be read, or damage: then from a copy in memory
+  } catch (const DatabaseError&) {  // a folder that may only be read, or damage: then from a copy
+                                    // in memory
   }
   const auto from_copy = [&] {
     Damages left_out;
-    Database copy = Database::from_image(read_session_image(places.database(), left_out), places.database());
+    Database copy =
+        Database::from_image(read_session_image(places.database(), left_out), places.database());
     Findings read;
     for (const Damage& d : left_out) read.push_back(finding<FindingKind::read_failed>(d.message()));
     try {
@@ -239,7 +262,8 @@ LedgerContent read_ledger(const LedgerPlaces& places, AskWitness ask) {
     } catch (const DatabaseError& e) {
       LedgerContent damaged;
       damaged.findings = schema_findings(copy);  // the cause, when tables were altered
-      if (damaged.findings.empty()) damaged.findings.push_back(finding<FindingKind::read_failed>(e.message()));
+      if (damaged.findings.empty())
+        damaged.findings.push_back(finding<FindingKind::read_failed>(e.message()));
       return damaged;
     }
   };

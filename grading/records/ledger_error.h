@@ -1,4 +1,5 @@
-// Why a ledger does not take, tell or give what it was asked for; in words it stands in the Error that bears it.
+// Why a ledger does not take, tell or give what it was asked for; in words it stands in the Error
+// that bears it.
 #pragma once
 
 #include "engine/base/named_enum.h"

@@ -12,10 +12,12 @@
 namespace cavum::records {
 namespace {
 
-/// What a database defines, by name: "table entry" and its SQL. What SQLite keeps for itself is left out.
+/// What a database defines, by name: "table entry" and its SQL. What SQLite keeps for itself is
+/// left out.
 std::map<std::string, std::string> schema_of(Database& db) {
   std::map<std::string, std::string> out;
-  auto rows = db.prepare("SELECT type, name, coalesce(sql, '') FROM sqlite_schema WHERE name NOT LIKE 'sqlite\\_%' ESCAPE '\\' ORDER BY rowid");
+  auto rows = db.prepare(
+      "SELECT type, name, coalesce(sql, '') FROM sqlite_schema WHERE name NOT LIKE 'sqlite\\_%' ESCAPE '\\' ORDER BY rowid");
   while (rows.step()) out[fmt::format("{} {}", rows.text(0), rows.text(1))] = rows.text(2);
   return out;
 }
@@ -23,11 +25,15 @@ std::map<std::string, std::string> schema_of(Database& db) {
 }  // namespace
 
 LedgerError code_of_none(const std::string& path) {
-  return holds_parts_of_a_ledger({std::filesystem::path(path).parent_path().string()}) ? LedgerError::lost : LedgerError::unknown;
+  return holds_parts_of_a_ledger({std::filesystem::path(path).parent_path().string()})
+             ? LedgerError::lost
+             : LedgerError::unknown;
 }
 
 Message instead_of_none(const std::string& path) {
-  if (code_of_none(path) == LedgerError::lost) return msg("restore ledger.db from its backup: the ledger's sessions or identities are still here");
+  if (code_of_none(path) == LedgerError::lost)
+    return msg(
+        "restore ledger.db from its backup: the ledger's sessions or identities are still here");
   return msg("make one with `cavum ledger init FOLDER`");
 }
 
@@ -35,11 +41,14 @@ void require_ledger(Database& db, const std::string& where) {
   if (db.integer("PRAGMA application_id") != k_ledger_application_id) {
     std::error_code none;
     const bool empty = std::filesystem::file_size(where, none) == 0 && !none;
-    throw Error(code_of_none(where), Name{where}, empty ? msg("is empty") : msg("is no ledger"), instead_of_none(where));
+    throw Error(code_of_none(where), Name{where}, empty ? msg("is empty") : msg("is no ledger"),
+                instead_of_none(where));
   }
   if (const auto format = db.integer("PRAGMA user_version"); format != k_ledger_format)
-    throw Error(where, msg("is of format {}, and this version of Cavum reads format {}", format, k_ledger_format),
-                msg("use the version that wrote it"));
+    throw Error(
+        where,
+        msg("is of format {}, and this version of Cavum reads format {}", format, k_ledger_format),
+        msg("use the version that wrote it"));
 }
 
 void check_schema(Database& db, Findings& findings) {
@@ -76,7 +85,8 @@ void make_tables(Database& db) {
 }
 
 Database open_for_adding(const std::string& path, bool make) {
-  if (!make && !std::filesystem::exists(path)) throw Error(code_of_none(path), Name{path}, msg("there is no ledger"), instead_of_none(path));
+  if (!make && !std::filesystem::exists(path))
+    throw Error(code_of_none(path), Name{path}, msg("there is no ledger"), instead_of_none(path));
   std::error_code none;  // an empty file would become a database below
   if (!make && std::filesystem::file_size(path, none) == 0 && !none)
     throw Error(code_of_none(path), Name{path}, msg("is empty"), instead_of_none(path));
@@ -87,27 +97,43 @@ Database open_for_adding(const std::string& path, bool make) {
   return db;
 }
 
-void insert(Database& db, const LedgerEntry& e, std::span<const std::string> erases, const std::string& note, std::span<const Bytes> documents) {
-  for (const Bytes& d : documents) db.prepare("INSERT OR IGNORE INTO document (sha256, bytes) VALUES (?, ?)").bind(1, sha256(d)).bind(2, d).run();
+void insert(Database& db, const LedgerEntry& e, std::span<const std::string> erases,
+            const std::string& note, std::span<const Bytes> documents) {
+  for (const Bytes& d : documents)
+    db.prepare("INSERT OR IGNORE INTO document (sha256, bytes) VALUES (?, ?)")
+        .bind(1, sha256(d))
+        .bind(2, d)
+        .run();
   db.prepare("INSERT INTO entry (seq, text, leaf_sha256) VALUES (?, ?, ?)")
       .bind(1, static_cast<std::int64_t>(e.seq))
       .bind(2, e.text)
       .bind(3, e.leaf)
       .run();
   for (const auto& [part, o] : openings_of(e.what.value()))
-    db.prepare("INSERT INTO opening (sha256, text) VALUES (?, ?)").bind(1, o->sha256).bind(2, o->text).run();
-  for (const auto& hash : erases) db.prepare("DELETE FROM opening WHERE sha256 = ?").bind(1, hash).run();
-  db.prepare("INSERT INTO note (size, text) VALUES (?, ?)").bind(1, static_cast<std::int64_t>(e.seq + 1)).bind(2, note).run();
+    db.prepare("INSERT INTO opening (sha256, text) VALUES (?, ?)")
+        .bind(1, o->sha256)
+        .bind(2, o->text)
+        .run();
+  for (const auto& hash : erases)
+    db.prepare("DELETE FROM opening WHERE sha256 = ?").bind(1, hash).run();
+  db.prepare("INSERT INTO note (size, text) VALUES (?, ?)")
+      .bind(1, static_cast<std::int64_t>(e.seq + 1))
+      .bind(2, note)
+      .run();
 }
 
 void wipe_erased(Database& db, const std::string& where) {
   if (db.integer("PRAGMA wal_checkpoint(TRUNCATE)") != 0)
-    throw Error(LedgerError::in_use, Name{where}, msg("what was erased is still in its log, which another program is reading"),
+    throw Error(LedgerError::in_use, Name{where},
+                msg("what was erased is still in its log, which another program is reading"),
                 msg("end that program, and run `cavum ledger erase` again"));
 }
 
 void insert_cosignature(Database& db, std::uint64_t size, const std::string& line) {
-  db.prepare("INSERT OR IGNORE INTO cosignature (size, line) VALUES (?, ?)").bind(1, static_cast<std::int64_t>(size)).bind(2, line).run();
+  db.prepare("INSERT OR IGNORE INTO cosignature (size, line) VALUES (?, ?)")
+      .bind(1, static_cast<std::int64_t>(size))
+      .bind(2, line)
+      .run();
 }
 
 }  // namespace cavum::records

@@ -15,12 +15,15 @@ std::string school_public_key_path() { return station_path("school.pub"); }
 
 SigningKey load_school_key(const std::string& path, bool make) {
   if (!make && !std::filesystem::exists(path))
-    throw Error(path, msg("the school's key is not there"), msg("restore it from its backup, or name its place with --key or CAVUM_HOME"));
+    throw Error(path, msg("the school's key is not there"),
+                msg("restore it from its backup, or name its place with --key or CAVUM_HOME"));
   return load_signing_key(path, "school");
 }
 
 std::string random_hex(std::size_t bytes) {
-  if (sodium_init() < 0) throw Error(msg("libsodium"), msg("does not start"), msg("check the installation of libsodium"));
+  if (sodium_init() < 0)
+    throw Error(msg("libsodium"), msg("does not start"),
+                msg("check the installation of libsodium"));
   Bytes b(bytes);
   randombytes_buf(b.data(), b.size());
   return to_hex(b);
@@ -29,9 +32,14 @@ std::string random_hex(std::size_t bytes) {
 Bytes from_hex(const std::string& hex, std::size_t bytes, const Where& where) {
   Bytes out(bytes);
   std::size_t read = 0;
-  const bool whole = hex.size() == 2 * bytes && hex.find_first_not_of("0123456789abcdef") == std::string::npos &&
-                     sodium_hex2bin(out.data(), out.size(), hex.data(), hex.size(), nullptr, &read, nullptr) == 0 && read == bytes;
-  if (!whole) throw Error(where, msg("is not {} hexadecimal digits in lower case", 2 * bytes), msg("use an intact copy"));
+  const bool whole =
+      hex.size() == 2 * bytes && hex.find_first_not_of("0123456789abcdef") == std::string::npos &&
+      sodium_hex2bin(out.data(), out.size(), hex.data(), hex.size(), nullptr, &read, nullptr) ==
+          0 &&
+      read == bytes;
+  if (!whole)
+    throw Error(where, msg("is not {} hexadecimal digits in lower case", 2 * bytes),
+                msg("use an intact copy"));
   return out;
 }
 
@@ -64,7 +72,8 @@ std::string pseudonym_from(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-std::array<std::uint8_t, 32> hkdf_sha256(std::span<const std::uint8_t> key_material, const std::string& info) {
+std::array<std::uint8_t, 32> hkdf_sha256(std::span<const std::uint8_t> key_material,
+                                         const std::string& info) {
   const std::array<std::uint8_t, 32> no_salt{};
   Bytes first_block(info.begin(), info.end());
   first_block.push_back(1);
@@ -78,7 +87,8 @@ std::array<std::uint8_t, 32> derived_secret(const SigningKey& key, const std::st
 std::string new_pseudonym() { return pseudonym_from(from_hex(random_hex(8), 8, "pseudonym")); }
 
 Bytes identity_seal(const SigningKey& school, const std::string& message) {
-  const Mac mac = hmac(derived_secret(school, "cavum identities"), {reinterpret_cast<const std::uint8_t*>(message.data()), message.size()});
+  const Mac mac = hmac(derived_secret(school, "cavum identities"),
+                       {reinterpret_cast<const std::uint8_t*>(message.data()), message.size()});
   return {mac.begin(), mac.end()};
 }
 

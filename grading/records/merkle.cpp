@@ -79,7 +79,8 @@ std::vector<Sha256> inclusion_proof(std::span<const Sha256> leaves, std::size_t 
   return path;
 }
 
-bool is_included(const Sha256& leaf, std::uint64_t index, std::uint64_t size, std::span<const Sha256> proof, const Sha256& root) {
+bool is_included(const Sha256& leaf, std::uint64_t index, std::uint64_t size,
+                 std::span<const Sha256> proof, const Sha256& root) {
   if (index >= size) return false;
   std::uint64_t node = index, last = size - 1;
   Sha256 hash = leaf;
@@ -97,13 +98,15 @@ bool is_included(const Sha256& leaf, std::uint64_t index, std::uint64_t size, st
 }
 
 std::vector<Sha256> consistency_proof(std::span<const Sha256> leaves, std::size_t old_size) {
-  if (old_size == 0 || old_size > leaves.size()) throw std::out_of_range("consistency_proof: no such earlier tree");
+  if (old_size == 0 || old_size > leaves.size())
+    throw std::out_of_range("consistency_proof: no such earlier tree");
   std::vector<Sha256> out;
   subproof(leaves, old_size, true, out);
   return out;
 }
 
-bool is_consistent(std::uint64_t old_size, const Sha256& old_root, std::uint64_t new_size, const Sha256& new_root, std::span<const Sha256> proof) {
+bool is_consistent(std::uint64_t old_size, const Sha256& old_root, std::uint64_t new_size,
+                   const Sha256& new_root, std::span<const Sha256> proof) {
   if (old_size == 0 || old_size > new_size) return false;
   if (old_size == new_size) return proof.empty() && old_root == new_root;
   std::uint64_t node = old_size - 1, last = new_size - 1;

@@ -17,7 +17,8 @@ Opening make_opening(const json& value) {
 }
 
 json opened_value(const std::string& text, const std::string& sha256, const Where& where) {
-  if (to_hex(cavum::sha256(text)) != sha256) throw Error(where, msg("is not what was bound by its hash"), msg("use an intact copy"));
+  if (to_hex(cavum::sha256(text)) != sha256)
+    throw Error(where, msg("is not what was bound by its hash"), msg("use an intact copy"));
   const json j = parse_json(text, where);
   if (!j.is_object() || !j.contains("value") || text_in(j, "salt").size() != 32)
     throw Error(where, msg("is no opening: a salt and a value"), msg("use an intact copy"));

@@ -40,7 +40,8 @@ json score_of(const Candidate& c, const std::map<std::string, ExamScale>& scales
 
 }  // namespace
 
-std::vector<ScoreDue> scores_due(const LedgerContent& content, const Registry& registry, Identities& identities, const std::string& exam,
+std::vector<ScoreDue> scores_due(const LedgerContent& content, const Registry& registry,
+                                 Identities& identities, const std::string& exam,
                                  const std::string& line_item, Wording say, bool again) {
   std::map<std::string, Candidate> candidates;
   std::map<std::uint64_t, std::string> whose;
@@ -51,29 +52,36 @@ std::vector<ScoreDue> scores_due(const LedgerContent& content, const Registry& r
     c.last_session = s.seq;
     if (s.shown->is_object()) c.counts = &s;
     c.changed_utc_ns = std::max(c.changed_utc_ns, s.released_utc_ns);
-    if (s.retracted_by) c.changed_utc_ns = std::max(c.changed_utc_ns, content.entries.at(*s.retracted_by).utc_ns);
+    if (s.retracted_by)
+      c.changed_utc_ns = std::max(c.changed_utc_ns, content.entries.at(*s.retracted_by).utc_ns);
   }
   for (const auto& p : registry.passbacks)
-    if (const auto found = whose.find(p.session); p.line_item == line_item && found != whose.end() && candidates.contains(found->second))
+    if (const auto found = whose.find(p.session);
+        p.line_item == line_item && found != whose.end() && candidates.contains(found->second))
       candidates[found->second].sent = &p;
   const auto scales = own_scales(registry);
   std::vector<ScoreDue> out;
   for (const auto& [pseudonym, c] : candidates) {
     const std::uint64_t result = c.counts == nullptr ? 0 : c.counts->shown_seq;
-    const bool known = c.sent != nullptr && c.sent->result == result && (c.sent->accepted() || !again);
+    const bool known =
+        c.sent != nullptr && c.sent->result == result && (c.sent->accepted() || !again);
     if (known || (result == 0 && (c.sent == nullptr || c.changed_utc_ns == 0))) continue;
     const auto identity = identities.of_pseudonym(pseudonym);
     if (!identity || identity->id.empty()) continue;  // forgotten
-    out.push_back({c.counts == nullptr ? c.last_session : c.counts->seq, result, identity->id, score_of(c, scales, say)});
+    out.push_back({c.counts == nullptr ? c.last_session : c.counts->seq, result, identity->id,
+                   score_of(c, scales, say)});
   }
   return out;
 }
 
-const LedgerEntry& enter_passback(Ledger& ledger, const ScoreDue& sent, const std::string& platform, const std::string& line_item, int status,
+const LedgerEntry& enter_passback(Ledger& ledger, const ScoreDue& sent, const std::string& platform,
+                                  const std::string& line_item, int status,
                                   const std::string& answer) {
   std::string words = one_line(answer).substr(0, k_longest_answer);
   words.resize(whole_characters(words));
-  return ledger.append([&](const LedgerContent&) { return PassbackEntry{sent.session, sent.result, platform, line_item, status, words}; });
+  return ledger.append([&](const LedgerContent&) {
+    return PassbackEntry{sent.session, sent.result, platform, line_item, status, words};
+  });
 }
 
 }  // namespace cavum::records

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "engine/base/json_fields.h"
-#include "engine/base/said_by.h"
+#include "engine/base/message_from.h"
 #include "engine/session/session.h"
 #include "grading/records/entry_text.h"
 #include "grading/records/history.h"
@@ -29,13 +29,16 @@ std::vector<Sha256> hashes_in(const json& list, const std::string& where) {
   return out;
 }
 
-std::string told(const LedgerContent& c, const Checkpoint& p) { return checkpoint_note(c.id, c.key_of(p.size), p, cosignatures_of(c, p.size)); }
+std::string told(const LedgerContent& c, const Checkpoint& p) {
+  return checkpoint_note(c.id, c.key_of(p.size), p, cosignatures_of(c, p.size));
+}
 
 /// The entry that holds the same session as the text of a lost one.
 bool is_filed_again(const LedgerContent& ledger, const std::string& lost) {
   const LedgerEntry entry = read_entry_or_none(lost);
   const auto* session = entry.as<SessionEntry>();
-  return session != nullptr && std::any_of(ledger.entries.begin(), ledger.entries.end(), [&](const LedgerEntry& e) {
+  return session != nullptr &&
+         std::any_of(ledger.entries.begin(), ledger.entries.end(), [&](const LedgerEntry& e) {
            const auto* other = e.as<SessionEntry>();
            return other != nullptr && other->file_sha256 == session->file_sha256;
          });
@@ -52,36 +55,49 @@ json make_receipt(const LedgerContent& content, std::uint64_t seq, std::uint64_t
                   {"inclusion", hex_list(inclusion_proof(leaves, seq))},
                   {"checkpoint", told(content, content.checkpoints.back())}};
   if (from_size == 0) return receipt;
-  const auto from = std::find_if(content.checkpoints.rbegin(), content.checkpoints.rend(), [&](const Checkpoint& p) { return p.size == from_size; });
+  const auto from = std::find_if(content.checkpoints.rbegin(), content.checkpoints.rend(),
+                                 [&](const Checkpoint& p) { return p.size == from_size; });
   if (from == content.checkpoints.rend()) throw std::out_of_range("no such checkpoint");
   if (content.key_of(from_size) != content.public_key)
-    throw Error(fmt::format("--from-size {}", from_size), msg("was signed with a key that the school has replaced, and a receipt names one key"),
-                msg("show the note of that time beside it: `cavum ledger verify --cosigned`, or the earlier receipt"));
-  receipt["consistency"] = {{"from", told(content, *from)}, {"proof", hex_list(consistency_proof(leaves, from_size))}};
+    throw Error(
+        fmt::format("--from-size {}", from_size),
+        msg("was signed with a key that the school has replaced, and a receipt names one key"),
+        msg("show the note of that time beside it: `cavum ledger verify --cosigned`, or the earlier receipt"));
+  receipt["consistency"] = {{"from", told(content, *from)},
+                            {"proof", hex_list(consistency_proof(leaves, from_size))}};
   return receipt;
 }
 
-Findings check_receipt(const json& receipt, const std::string& public_key, const LedgerContent* ledger) {
+Findings check_receipt(const json& receipt, const std::string& public_key,
+                       const LedgerContent* ledger) {
   Findings findings;
   if (!receipt.is_object()) return {finding<FindingKind::no_receipt>()};
   try {
-    const std::string id = receipt.at("ledger"), key = receipt.at("public_key"), entry = receipt.at("entry");
+    const std::string id = receipt.at("ledger"), key = receipt.at("public_key"),
+                      entry = receipt.at("entry");
     const Checkpoint p = checkpoint_in(receipt.at("checkpoint"), id, key, "receipt");
     const auto path = hashes_in(receipt.at("inclusion"), "receipt: inclusion");
-    if (ledger != nullptr ? key != ledger->key_of(p.size) : !public_key.empty() && key != public_key)
+    if (ledger != nullptr ? key != ledger->key_of(p.size)
+                          : !public_key.empty() && key != public_key)
       findings.push_back(finding<FindingKind::receipt_other_school>());
-    if (!is_signed_by_school(id, key, p)) findings.push_back(finding<FindingKind::receipt_signature>());
-    if (!is_included(leaf_hash(ledger_bytes(entry)), require_whole<std::uint64_t>(receipt, "seq", "receipt"), p.size, path, p.root))
+    if (!is_signed_by_school(id, key, p))
+      findings.push_back(finding<FindingKind::receipt_signature>());
+    if (!is_included(leaf_hash(ledger_bytes(entry)),
+                     require_whole<std::uint64_t>(receipt, "seq", "receipt"), p.size, path, p.root))
       findings.push_back(finding<FindingKind::receipt_entry>());
     if (const json& consistency = member_of(receipt, "consistency"); !consistency.is_null()) {
-      const Checkpoint from = checkpoint_in(consistency.at("from"), id, key, "receipt: consistency");
-      if (!is_signed_by_school(id, key, from)) findings.push_back(finding<FindingKind::receipt_earlier_signature>());
-      if (!is_consistent(from.size, from.root, p.size, p.root, hashes_in(consistency.at("proof"), "receipt: consistency")))
+      const Checkpoint from =
+          checkpoint_in(consistency.at("from"), id, key, "receipt: consistency");
+      if (!is_signed_by_school(id, key, from))
+        findings.push_back(finding<FindingKind::receipt_earlier_signature>());
+      if (!is_consistent(from.size, from.root, p.size, p.root,
+                         hashes_in(consistency.at("proof"), "receipt: consistency")))
         findings.push_back(finding<FindingKind::receipt_earlier>());
     }
     if (ledger != nullptr) {
       const History history(*ledger);
-      if (check_history(history, id, p, msg("the receipt"), findings) == Standing::loss_on_record && !is_filed_again(*ledger, entry))
+      if (check_history(history, id, p, msg("the receipt"), findings) == Standing::loss_on_record &&
+          !is_filed_again(*ledger, entry))
         findings.push_back(finding<FindingKind::receipt_lost>(history.recorded_loss(p)->seq));
     }
   } catch (const json::exception&) {
@@ -89,7 +105,7 @@ Findings check_receipt(const json& receipt, const std::string& public_key, const
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
-    findings.push_back(finding<FindingKind::receipt_unreadable>(said_by(e)));
+    findings.push_back(finding<FindingKind::receipt_unreadable>(message_from(e)));
   }
   return findings;
 }

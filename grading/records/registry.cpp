@@ -6,7 +6,7 @@
 
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
-#include "engine/base/said_by.h"
+#include "engine/base/message_from.h"
 #include "grading/records/begin.h"
 #include "grading/records/erasure.h"
 #include "grading/records/ledger_error.h"
@@ -18,24 +18,34 @@ using nlohmann::json;
 
 namespace {
 
-/// A result, which exports rely on: null, or in the shape that grading gives it. Throws Error for another one.
+/// A result, which exports rely on: null, or in the shape that grading gives it. Throws Error for
+/// another one.
 const SharedJson& sound_result(const SharedJson& opened) {
   const json& result = *opened;
   if (result.is_null()) return opened;
-  const auto text = [](const json& j, const char* name) { return j.contains(name) && j[name].is_string(); };
-  const auto number = [](const json& j, const char* name) { return j.contains(name) && j[name].is_number(); };
+  const auto text = [](const json& j, const char* name) {
+    return j.contains(name) && j[name].is_string();
+  };
+  const auto number = [](const json& j, const char* name) {
+    return j.contains(name) && j[name].is_number();
+  };
   const auto criterion = [&](const json& c) {
-    return c.is_object() && text(c, "id") && text(c, "metric") && text(c, "unit") && number(c, "points") && number(c, "max") && c.contains("value") &&
+    return c.is_object() && text(c, "id") && text(c, "metric") && text(c, "unit") &&
+           number(c, "points") && number(c, "max") && c.contains("value") &&
            (c["value"].is_null() || c["value"].is_number());
   };
   const json &score = member_of(result, "score"), &criteria = member_of(result, "criteria");
-  const bool sound = result.is_object() && text(result, "verdict") && score.is_object() && number(score, "points") && number(score, "max") &&
-                     (!score.contains("pass_percent") || number(score, "pass_percent")) &&
-                     (!score.contains("borderline_percent") || number(score, "borderline_percent")) && criteria.is_array() &&
-                     std::all_of(criteria.begin(), criteria.end(), criterion);
-  if (!sound) throw Error(msg("result"), msg("is none as grading writes it"), msg("use an intact copy"));
+  const bool sound =
+      result.is_object() && text(result, "verdict") && score.is_object() &&
+      number(score, "points") && number(score, "max") &&
+      (!score.contains("pass_percent") || number(score, "pass_percent")) &&
+      (!score.contains("borderline_percent") || number(score, "borderline_percent")) &&
+      criteria.is_array() && std::all_of(criteria.begin(), criteria.end(), criterion);
+  if (!sound)
+    throw Error(msg("result"), msg("is none as grading writes it"), msg("use an intact copy"));
   static_cast<void>(grading::verdict_in(result));
-  for (const char* list : {"verdict_reasons", "notes"}) static_cast<void>(grading::findings_in(member_of(result, list)));
+  for (const char* list : {"verdict_reasons", "notes"})
+    static_cast<void>(grading::findings_in(member_of(result, list)));
   for (const json& c : criteria) static_cast<void>(grading::findings_in(member_of(c, "facts")));
   return opened;
 }
@@ -45,17 +55,23 @@ bool contest_each_other(const FiledSession& a, const FiledSession& b) {
 }
 
 /// Why a release of these results is none for a session; none: it is one.
-std::optional<Finding> why_void(const Registry& r, const FiledSession& s, const std::set<std::uint64_t>& results) {
-  if (const FiledSession* other = r.chosen_instead_of(s)) return finding<FindingKind::release_other_chosen>(s.seq, other->seq);
+std::optional<Finding> why_void(const Registry& r, const FiledSession& s,
+                                const std::set<std::uint64_t>& results) {
+  if (const FiledSession* other = r.chosen_instead_of(s))
+    return finding<FindingKind::release_other_chosen>(s.seq, other->seq);
   if (s.made_up_by) return finding<FindingKind::release_made_up>(s.seq, *s.made_up_by);
-  if (const FiledSession* other = r.shown_beside(s)) return finding<FindingKind::release_other_sitting>(s.seq, other->seq);
-  const bool both = std::any_of(r.sessions.begin(), r.sessions.end(),
-                                [&](const FiledSession& o) { return contest_each_other(s, o) && results.contains(o.result_seq); });
+  if (const FiledSession* other = r.shown_adjacent(s))
+    return finding<FindingKind::release_other_sitting>(s.seq, other->seq);
+  const bool both = std::any_of(r.sessions.begin(), r.sessions.end(), [&](const FiledSession& o) {
+    return contest_each_other(s, o) && results.contains(o.result_seq);
+  });
   return both ? std::optional(finding<FindingKind::release_void>(s.seq)) : std::nullopt;
 }
 
-/// What the entry `seq` releases, `results`: of several endings of one exam one, and once a person has chosen, that one.
-void release(Registry& r, std::uint64_t seq, std::int64_t utc_ns, const std::set<std::uint64_t>& results) {
+/// What the entry `seq` releases, `results`: of several endings of one exam one, and once a person
+/// has chosen, that one.
+void release(Registry& r, std::uint64_t seq, std::int64_t utc_ns,
+             const std::set<std::uint64_t>& results) {
   for (auto& s : r.sessions) {
     if (!results.contains(s.result_seq)) continue;
     if (const auto why = why_void(r, s, results)) {
@@ -63,7 +79,8 @@ void release(Registry& r, std::uint64_t seq, std::int64_t utc_ns, const std::set
       continue;
     }
     for (auto& o : r.sessions)  // released before anybody knew of this ending
-      if (contest_each_other(s, o)) o.released = false, o.shown = json(), o.shown_seq = 0, o.released_utc_ns = 0;
+      if (contest_each_other(s, o))
+        o.released = false, o.shown = json(), o.shown_seq = 0, o.released_utc_ns = 0;
     s.released = true;
     s.retracted_by.reset();
     s.shown = s.result;
@@ -76,17 +93,20 @@ void release(Registry& r, std::uint64_t seq, std::int64_t utc_ns, const std::set
 /// The one that an entry made; null: none of the list.
 template <class T>
 const T* of_entry(const std::vector<T>& list, std::uint64_t seq) {
-  const auto found = std::lower_bound(list.begin(), list.end(), seq, [](const T& one, std::uint64_t at) { return one.seq < at; });
+  const auto found = std::lower_bound(list.begin(), list.end(), seq,
+                                      [](const T& one, std::uint64_t at) { return one.seq < at; });
   return found == list.end() || found->seq != seq ? nullptr : &*found;
 }
 
 using Documents = std::map<std::string, std::string>;
 
 bool marked_by(const FiledSession& s, const Documents& documents) {
-  return std::any_of(s.regrades.begin(), s.regrades.end(), [&](const Regrade& r) { return r.documents == documents; });
+  return std::any_of(s.regrades.begin(), s.regrades.end(),
+                     [&](const Regrade& r) { return r.documents == documents; });
 }
 
-/// The last documents by which all of an exam was marked, and the first entry of that; none: entry 0.
+/// The last documents by which all of an exam was marked, and the first entry of that; none: entry
+/// 0.
 std::pair<Documents, std::uint64_t> class_documents(const std::vector<const FiledSession*>& exam) {
   std::map<Documents, std::uint64_t> first;
   for (const FiledSession* s : exam)
@@ -98,8 +118,11 @@ std::pair<Documents, std::uint64_t> class_documents(const std::vector<const File
   std::pair<Documents, std::uint64_t> last;
   for (const auto& one : first) {
     const auto before = [&](const FiledSession* s) { return s->seq < one.second; };
-    const bool all = std::all_of(exam.begin(), exam.end(), [&](const FiledSession* s) { return !before(s) || marked_by(*s, one.first); });
-    if (all && one.second > last.second && std::count_if(exam.begin(), exam.end(), before) > 1) last = one;
+    const bool all = std::all_of(exam.begin(), exam.end(), [&](const FiledSession* s) {
+      return !before(s) || marked_by(*s, one.first);
+    });
+    if (all && one.second > last.second && std::count_if(exam.begin(), exam.end(), before) > 1)
+      last = one;
   }
   return last;
 }
@@ -116,9 +139,11 @@ const FiledSession* Registry::chosen_instead_of(const FiledSession& session) con
   return nullptr;
 }
 
-const FiledSession* Registry::shown_beside(const FiledSession& session) const {
+const FiledSession* Registry::shown_adjacent(const FiledSession& session) const {
   for (const auto& o : sessions)
-    if (session.first_sitting != 0 && o.first_sitting == session.first_sitting && o.nonce != session.nonce && o.shown_seq != 0) return &o;
+    if (session.first_sitting != 0 && o.first_sitting == session.first_sitting &&
+        o.nonce != session.nonce && o.shown_seq != 0)
+      return &o;
   return nullptr;
 }
 
@@ -141,20 +166,23 @@ std::set<std::uint64_t> Registry::marked_otherwise() const {
   return out;
 }
 
-const IssuedTicket* Registry::live_ticket(const std::string& candidate, const std::string& exam, std::int64_t utc_ns) const {
+const IssuedTicket* Registry::live_ticket(const std::string& candidate, const std::string& exam,
+                                          std::int64_t utc_ns) const {
   for (const auto& t : tickets)
     if (t.ticket.candidate == candidate && t.ticket.exam == exam && t.live(utc_ns)) return &t;
   return nullptr;
 }
 
-std::string recording_of(const LedgerPlaces& places, const FiledSession& s) {
+std::string recording_of(const LedgerPaths& places, const FiledSession& s) {
   if (s.motion_erased_by)
-    throw Error(msg("entry {}", s.seq), msg("its recording was erased (entry {})", *s.motion_erased_by),
+    throw Error(msg("entry {}", s.seq),
+                msg("its recording was erased (entry {})", *s.motion_erased_by),
                 msg("its result and its proofs are what is left"));
   return places.session(s.file_sha256);
 }
 
-/// Takes one entry after the other into a registry. Each function throws std::exception for what contradicts the entries before.
+/// Takes one entry after the other into a registry. Each function throws std::exception for what
+/// contradicts the entries before.
 class RegistryReader {
  public:
   void apply(const LedgerContent& content, const LedgerEntry& e) {
@@ -166,12 +194,13 @@ class RegistryReader {
     } catch (const std::out_of_range&) {
       say(finding<FindingKind::entry_unknown>());
     } catch (const Error& error) {
-      say(error.code() == LedgerError::bad_signature ? finding<FindingKind::entry_signature>(error.message())
-                                                     : finding<FindingKind::entry_contradicts>(error.message()));
+      say(error.code() == LedgerError::bad_signature
+              ? finding<FindingKind::entry_signature>(error.message())
+              : finding<FindingKind::entry_contradicts>(error.message()));
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
-      say(finding<FindingKind::entry_contradicts>(said_by(error)));
+      say(finding<FindingKind::entry_contradicts>(message_from(error)));
     }
   }
   [[nodiscard]] const Registry& so_far() const noexcept { return r_; }
@@ -187,14 +216,16 @@ class RegistryReader {
     IssuedTicket t{e_->seq, what.ticket, {}, {}, {}};
     t.first_sitting = e_->seq;
     if (what.makes_up) make_up(*what.makes_up, t);
-    if (!by_nonce_.emplace(t.ticket.nonce, r_.tickets.size()).second) say(finding<FindingKind::ticket_number_taken>());
+    if (!by_nonce_.emplace(t.ticket.nonce, r_.tickets.size()).second)
+      say(finding<FindingKind::ticket_number_taken>());
     by_ticket_[e_->seq] = r_.tickets.size();
     r_.tickets.push_back(std::move(t));
   }
 
   void operator()(const SeatsEntry& what) {
     for (const Seat& seat : what.seats) {
-      if (!seat.station.empty() && r_.stations.of(seat.station) == nullptr) say(finding<FindingKind::seat_unknown>());
+      if (!seat.station.empty() && r_.stations.of(seat.station) == nullptr)
+        say(finding<FindingKind::seat_unknown>());
       r_.tickets.at(by_ticket_.at(seat.ticket)).seat = seat.station;
     }
   }
@@ -211,7 +242,8 @@ class RegistryReader {
   /// Whoever is forgotten sits no more exams under that pseudonym.
   void operator()(const ForgetEntry& what) {
     for (auto& t : r_.tickets)
-      if (t.ticket.candidate == what.candidate && !t.used_by && !t.cancelled_by) t.cancelled_by = e_->seq;
+      if (t.ticket.candidate == what.candidate && !t.used_by && !t.cancelled_by)
+        t.cancelled_by = e_->seq;
     erase();
   }
   void operator()(const EraseEntry&) { erase(); }
@@ -221,7 +253,8 @@ class RegistryReader {
     require_signed(b, what.signature, content_->key_of(e_->seq + 1), msg("word to begin"));
     IssuedTicket& t = r_.tickets.at(by_nonce_.at(b.ticket));
     constexpr std::int64_t k_moment_ns = 60'000'000'000;
-    if (std::abs(b.utc_ns - e_->utc_ns) > k_moment_ns) say(finding<FindingKind::begins_otherwise>());
+    if (std::abs(b.utc_ns - e_->utc_ns) > k_moment_ns)
+      say(finding<FindingKind::begins_otherwise>());
     if (b.ledger != content_->id) say(finding<FindingKind::begins_other_ledger>());
     t.begins.push_back({e_->seq, b.nonce, b.utc_ns});
   }
@@ -243,14 +276,17 @@ class RegistryReader {
     s.grading_version = what.grading_version;
     s.simulated = what.simulated;
     s.findings = what.findings;
-    if (const auto [chain, first] = chains_.emplace(s.chain_sha256, s.seq); !first && s.findings.empty())
+    if (const auto [chain, first] = chains_.emplace(s.chain_sha256, s.seq);
+        !first && s.findings.empty())
       say(finding<FindingKind::submitted_twice>(chain->second));
     if (!s.nonce.empty() && s.findings.empty()) use_ticket(s);
     if (const auto t = by_nonce_.find(s.nonce); t != by_nonce_.end()) {
       const IssuedTicket& ticket = r_.tickets[t->second];
-      s.made_up_by = ticket.made_up_by, s.makes_up = ticket.makes_up, s.first_sitting = ticket.first_sitting;
+      s.made_up_by = ticket.made_up_by, s.makes_up = ticket.makes_up,
+      s.first_sitting = ticket.first_sitting;
     }
-    for (auto& other : r_.sessions)  // two endings of one exam: the one that was filed as sound may be the wrong one
+    for (auto& other : r_.sessions)  // two endings of one exam: the one that was filed as sound may
+                                     // be the wrong one
       if (!s.nonce.empty() && other.nonce == s.nonce && other.chain_sha256 != s.chain_sha256) {
         other.contested_by.push_back(s.seq);
         s.contested_by.push_back(other.seq);
@@ -265,20 +301,23 @@ class RegistryReader {
     s.result_seq = e_->seq;
     s.result_erased_by = erased_by(content_->erased, e_->seq, Part::result);
     s.regrades.push_back({e_->seq, e_->utc_ns, e_->by.reason, what.person, what.by, s.result});
-    s.released = false;  // a new result waits for its own release, and the old one stands until then
+    s.released =
+        false;  // a new result waits for its own release, and the old one stands until then
   }
 
   void operator()(const ReleaseEntry& what) {
     const std::set<std::uint64_t> results(what.results.begin(), what.results.end());
     for (const auto seq : results)
-      if (std::none_of(r_.sessions.begin(), r_.sessions.end(), [&](const FiledSession& s) { return s.result_seq == seq; }))
+      if (std::none_of(r_.sessions.begin(), r_.sessions.end(),
+                       [&](const FiledSession& s) { return s.result_seq == seq; }))
         say(finding<FindingKind::releases_void>());
     release(r_, e_->seq, e_->utc_ns, results);
   }
 
   void operator()(const RetractEntry& what) {
     for (const auto seq : std::set<std::uint64_t>(what.results.begin(), what.results.end())) {
-      const auto s = std::find_if(r_.sessions.begin(), r_.sessions.end(), [&](const FiledSession& one) { return one.shown_seq == seq; });
+      const auto s = std::find_if(r_.sessions.begin(), r_.sessions.end(),
+                                  [&](const FiledSession& one) { return one.shown_seq == seq; });
       if (s == r_.sessions.end() || seq == 0) {
         say(finding<FindingKind::retracts_void>());
         continue;
@@ -305,20 +344,28 @@ class RegistryReader {
 
   void operator()(const PassbackEntry& what) {
     const FiledSession& s = session(what.session);
-    if (what.result != 0 && what.result != s.seq && s.regrade(what.result) == nullptr) say(finding<FindingKind::sends_void>());
+    if (what.result != 0 && what.result != s.seq && s.regrade(what.result) == nullptr)
+      say(finding<FindingKind::sends_void>());
     r_.passbacks.push_back(what);
   }
 
-  void operator()(const AnnounceEntry& what) { r_.day.announcements.push_back({e_->seq, e_->utc_ns, what.text, what.audience}); }
-  void operator()(const HoldEntry& what) { r_.day.holds.push_back({e_->seq, e_->utc_ns, e_->by.reason, what.audience, {}, 0}); }
+  void operator()(const AnnounceEntry& what) {
+    r_.day.announcements.push_back({e_->seq, e_->utc_ns, what.text, what.audience});
+  }
+  void operator()(const HoldEntry& what) {
+    r_.day.holds.push_back({e_->seq, e_->utc_ns, e_->by.reason, what.audience, {}, 0});
+  }
   void operator()(const GoOnEntry& what) { take_go_on(r_.day, *e_, what); }
   void operator()(const IncidentEntry& what) {
-    r_.day.incidents.push_back({e_->seq, e_->utc_ns, e_->by.account, what.about_station, what.candidate, what.words.words(),
+    r_.day.incidents.push_back({e_->seq, e_->utc_ns, e_->by.account, what.about_station,
+                                what.candidate, what.words.words(),
                                 erased_by(content_->erased, e_->seq, Part::words)});
   }
 
   void operator()(const InviteEntry& what) { take_invite(r_.stations, *e_, what); }
-  void operator()(const EnrolEntry& what) { take_enrol(r_.stations, *e_, what, content_->key_of(e_->seq + 1)); }
+  void operator()(const EnrolEntry& what) {
+    take_enrol(r_.stations, *e_, what, content_->key_of(e_->seq + 1));
+  }
   void operator()(const RevokeEntry& what) { take_revoke(r_.stations, *e_, what); }
   void operator()(const RoomEntry& what) { take_room(r_.stations, what); }
 
@@ -329,7 +376,8 @@ class RegistryReader {
   /// Of the first sitting nothing counts from now on.
   void make_up(const MakesUp& what, IssuedTicket& t) {
     IssuedTicket& first = r_.tickets.at(by_ticket_.at(what.ticket));
-    if (first.ticket.candidate != t.ticket.candidate || first.ticket.exam != t.ticket.exam) say(finding<FindingKind::makes_up_other>());
+    if (first.ticket.candidate != t.ticket.candidate || first.ticket.exam != t.ticket.exam)
+      say(finding<FindingKind::makes_up_other>());
     if (first.made_up_by) say(finding<FindingKind::makes_up_twice>());
     first.made_up_by = e_->seq;
     t.makes_up = what;

@@ -9,11 +9,11 @@
 
 namespace cavum::records {
 
-enum class TicketGroup : std::uint8_t { live, begun, run_out, filed, cancelled, made_up };
-[[nodiscard]] std::string_view name_of(TicketGroup group) noexcept;
+enum class TicketStatus : std::uint8_t { live, begun, run_out, filed, cancelled, made_up };
+[[nodiscard]] std::string_view name_of(TicketStatus group) noexcept;
 
 struct TicketState {
-  TicketGroup group = TicketGroup::live;
+  TicketStatus group = TicketStatus::live;
   Message words;
 };
 [[nodiscard]] TicketState state_of(const IssuedTicket& ticket, std::int64_t now_utc_ns);

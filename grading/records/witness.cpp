@@ -17,7 +17,9 @@
 
 namespace cavum::records {
 
-std::string witness_path(const std::string& ledger_id) { return station_path("witness/" + file_name_of(ledger_id)); }
+std::string witness_path(const std::string& ledger_id) {
+  return station_path("witness/" + file_name_of(ledger_id));
+}
 
 std::vector<Checkpoint> read_witness(const std::string& id, Findings& findings) {
   std::vector<Checkpoint> out;
@@ -56,23 +58,29 @@ void make_room_for_witness(const std::string& id, std::size_t lines) {
   constexpr off_t k_longest_line = 256;
   const std::string path = witness_path(id);
   const int fd = open_witness(path);
-  const bool held = fd >= 0 && (::fallocate(fd, FALLOC_FL_KEEP_SIZE, ::lseek(fd, 0, SEEK_END), k_longest_line * static_cast<off_t>(lines)) == 0 ||
-                                errno == EOPNOTSUPP || errno == ENOSYS);  // a file system that promises nothing
+  const bool held =
+      fd >= 0 && (::fallocate(fd, FALLOC_FL_KEEP_SIZE, ::lseek(fd, 0, SEEK_END),
+                              k_longest_line * static_cast<off_t>(lines)) == 0 ||
+                  errno == EOPNOTSUPP || errno == ENOSYS);  // a file system that promises nothing
   const int why = errno;
   if (fd >= 0) ::close(fd);
   if (!held)
-    throw DatabaseError(path, msg("the ledger's witness has no room for a line ({})", system_words(why)),
-                        msg("make room on the disk, or the folder writable; nothing was entered"), DiskRefusal{});
+    throw DatabaseError(
+        path, msg("the ledger's witness has no room for a line ({})", system_words(why)),
+        msg("make room on the disk, or the folder writable; nothing was entered"), DiskRefusal{});
 }
 
 void tell_witness(const std::string& id, const Checkpoint& p) {
   const std::string path = witness_path(id);
-  std::string line = fmt::format("{} {} {} {}\n", p.size, to_hex(p.root), p.utc_ns, to_base64(p.signature));
+  std::string line =
+      fmt::format("{} {} {} {}\n", p.size, to_hex(p.root), p.utc_ns, to_base64(p.signature));
   const int fd = open_witness(path);
   char last = '\n';  // after a line that a power cut left short, a new one begins
   const off_t end = fd >= 0 ? ::lseek(fd, 0, SEEK_END) : 0;
   if (end > 0 && ::pread(fd, &last, 1, end - 1) == 1 && last != '\n') line.insert(0, "\n");
-  const bool told = fd >= 0 && ::write(fd, line.data(), line.size()) == static_cast<ssize_t>(line.size()) && ::fsync(fd) == 0;
+  const bool told = fd >= 0 &&
+                    ::write(fd, line.data(), line.size()) == static_cast<ssize_t>(line.size()) &&
+                    ::fsync(fd) == 0;
   const int why = errno;
   if (fd >= 0) ::close(fd);
   if (told && end == 0) {  // the file is new, and perhaps its folder
@@ -80,8 +88,10 @@ void tell_witness(const std::string& id, const Checkpoint& p) {
     sync_folder_of(std::filesystem::path(path).parent_path().string());
   }
   if (!told)
-    throw Error(path, msg("the entry is in the ledger, but its witness cannot be told ({})", system_words(why)),
-                msg("make the folder writable; the next entry tells it again"));
+    throw Error(
+        path,
+        msg("the entry is in the ledger, but its witness cannot be told ({})", system_words(why)),
+        msg("make the folder writable; the next entry tells it again"));
 }
 
 }  // namespace cavum::records

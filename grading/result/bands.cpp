@@ -12,17 +12,21 @@ void put_in_band(const Result& r, const scenarios::CriterionSpec& spec, Criterio
   const bool judged = c.value && c.work_share >= 1;
   const double worse = spec.zero < spec.full ? -1 : 1;
   std::size_t band = 0;
-  while (band < spec.band_limits.size() && (!judged || worse * (*c.value - spec.band_limits[band]) > 0)) ++band;
+  while (band < spec.band_limits.size() &&
+         (!judged || worse * (*c.value - spec.band_limits[band]) > 0))
+    ++band;
   c.band = band;
   using Kind = FindingKind;
   const Authored name{r.bands[band].name};
   const auto limit = [&](std::size_t i) { return value_text(measure, spec.band_limits[i], 0, 2); };
-  c.facts.push_back(!judged && c.value                                                ? finding<Kind::in_band_for_part>(name)
-                    : judged && band > 0 && measure.reads != scenarios::Reads::yes_no ? finding<Kind::in_band_beyond>(name, limit(band - 1))
-                                                                                      : finding<Kind::in_band>(name));
+  c.facts.push_back(!judged && c.value ? finding<Kind::in_band_for_part>(name)
+                    : judged && band > 0 && measure.reads != scenarios::Reads::yes_no
+                        ? finding<Kind::in_band_beyond>(name, limit(band - 1))
+                        : finding<Kind::in_band>(name));
   if (!judged) return;
   for (std::size_t i = 0; i < spec.band_limits.size(); ++i)
-    if (c.bound > 0 && std::fabs(*c.value - spec.band_limits[i]) <= c.bound) c.facts.push_back(finding<Kind::band_limit_in_bound>(limit(i)));
+    if (c.bound > 0 && std::fabs(*c.value - spec.band_limits[i]) <= c.bound)
+      c.facts.push_back(finding<Kind::band_limit_in_bound>(limit(i)));
 }
 
 Findings count_bands(Result& r) {
@@ -38,8 +42,9 @@ Findings count_bands(Result& r) {
     const int count = static_cast<int>(which.items.size()), most = *r.bands[i].most;
     if (count <= most) continue;
     const Authored band{r.bands[i].name};
-    failed.push_back(i + 1 < r.bands.size() ? finding<FindingKind::bands_too_full>(count, band, most, which)
-                                            : finding<FindingKind::band_too_full>(count, band, most, which));
+    failed.push_back(i + 1 < r.bands.size()
+                         ? finding<FindingKind::bands_too_full>(count, band, most, which)
+                         : finding<FindingKind::band_too_full>(count, band, most, which));
   }
   return failed;
 }

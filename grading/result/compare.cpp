@@ -19,32 +19,35 @@ constexpr double k_same = 1e-6;  // results are written to a millionth
 bool same(const std::optional<double>& a, const std::optional<double>& b) {
   return a.has_value() == b.has_value() && (!a || std::fabs(*a - *b) <= k_same);
 }
-Value number(const std::optional<double>& v) { return v ? Value(as_number(*v)) : Value(Term{said("none")}); }
+Value number(const std::optional<double>& v) {
+  return v ? Value(as_number(*v)) : Value(Term{noop("none")});
+}
 
 struct ChangeRow {
   ChangeKind kind;
   const char *name, *english;
 };
 constexpr ChangeRow k_changes[] = {
-    {ChangeKind::metric, "metric", said("metric")},
-    {ChangeKind::full, "full", said("full marks at")},
-    {ChangeKind::zero, "zero", said("no marks at")},
-    {ChangeKind::points, "points", said("points")},
-    {ChangeKind::band_limits, "band_limits", said("limits of bands")},
-    {ChangeKind::critical_above, "critical_above", said("critical above")},
-    {ChangeKind::critical_below, "critical_below", said("critical below")},
-    {ChangeKind::value, "value", said("value")},
-    {ChangeKind::added, "added", said("new criterion")},
-    {ChangeKind::dropped, "dropped", said("no longer a criterion")},
-    {ChangeKind::other_scenario, "other_scenario", said("measured against the new scenario")},
-    {ChangeKind::sealed_otherwise, "sealed_otherwise", said("the sealed figure is not what grading gives: tampered with, or of another program")},
-    {ChangeKind::work_share, "work_share", said("another share of the work counts as done")},
-    {ChangeKind::pass_percent, "pass_percent", said("pass mark")},
-    {ChangeKind::open_step, "open_step", said("an exam whose last step is open")},
-    {ChangeKind::within_bound, "within_bound", said("a verdict that bounds leave open")},
-    {ChangeKind::borderline_percent, "borderline_percent", said("borderline band")},
-    {ChangeKind::rule, "rule", said("rule")},
-    {ChangeKind::bands, "bands", said("bands")},
+    {ChangeKind::metric, "metric", noop("metric")},
+    {ChangeKind::full, "full", noop("full marks at")},
+    {ChangeKind::zero, "zero", noop("no marks at")},
+    {ChangeKind::points, "points", noop("points")},
+    {ChangeKind::band_limits, "band_limits", noop("limits of bands")},
+    {ChangeKind::critical_above, "critical_above", noop("critical above")},
+    {ChangeKind::critical_below, "critical_below", noop("critical below")},
+    {ChangeKind::value, "value", noop("value")},
+    {ChangeKind::added, "added", noop("new criterion")},
+    {ChangeKind::dropped, "dropped", noop("no longer a criterion")},
+    {ChangeKind::other_scenario, "other_scenario", noop("measured against the new scenario")},
+    {ChangeKind::sealed_otherwise, "sealed_otherwise",
+     noop("the sealed figure is not what grading gives: tampered with, or of another program")},
+    {ChangeKind::work_share, "work_share", noop("another share of the work counts as done")},
+    {ChangeKind::pass_percent, "pass_percent", noop("pass mark")},
+    {ChangeKind::open_step, "open_step", noop("an exam whose last step is open")},
+    {ChangeKind::within_bound, "within_bound", noop("a verdict that bounds leave open")},
+    {ChangeKind::borderline_percent, "borderline_percent", noop("borderline band")},
+    {ChangeKind::rule, "rule", noop("rule")},
+    {ChangeKind::bands, "bands", noop("bands")},
 };
 static_assert([] {
   for (std::size_t i = 0; i < std::size(k_changes); ++i)
@@ -55,7 +58,8 @@ const ChangeRow& row_of(ChangeKind kind) { return k_changes[static_cast<std::siz
 
 template <class All>
 auto* find(All& list, const std::string& id) {
-  const auto found = std::find_if(list.begin(), list.end(), [&](const auto& c) { return c.id == id; });
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const auto& c) { return c.id == id; });
   return found == list.end() ? nullptr : &*found;
 }
 
@@ -65,16 +69,19 @@ Value limits_value(const std::vector<double>& limits) {
   return limits.empty() ? number({}) : Value(list);
 }
 
-void changes_of_spec(const scenarios::CriterionSpec& a, const scenarios::CriterionSpec& b, Changes& why) {
+void changes_of_spec(const scenarios::CriterionSpec& a, const scenarios::CriterionSpec& b,
+                     Changes& why) {
   using enum ChangeKind;
-  const auto figure = [&](ChangeKind kind, const std::optional<double>& from, const std::optional<double>& to) {
+  const auto figure = [&](ChangeKind kind, const std::optional<double>& from,
+                          const std::optional<double>& to) {
     if (!same(from, to)) why.push_back({kind, number(from), number(to)});
   };
   if (a.metric != b.metric) why.push_back({metric, Name{a.metric}, Name{b.metric}});
   figure(full, a.full, b.full);
   figure(zero, a.zero, b.zero);
   figure(points, a.points, b.points);
-  if (a.band_limits != b.band_limits) why.push_back({band_limits, limits_value(a.band_limits), limits_value(b.band_limits)});
+  if (a.band_limits != b.band_limits)
+    why.push_back({band_limits, limits_value(a.band_limits), limits_value(b.band_limits)});
   figure(critical_above, a.critical_above, b.critical_above);
   figure(critical_below, a.critical_below, b.critical_below);
 }
@@ -85,19 +92,28 @@ Changes changes_of_rules(const scenarios::RubricSpec& a, const scenarios::Rubric
   const auto change = [&](ChangeKind kind, const Value& from, const Value& to) {
     if (!(from == to)) rules.push_back({kind, from, to});
   };
-  const auto open = [](bool passes) { return Term{passes ? said("may pass") : said("is reviewed")}; };
-  const auto in_bound = [](bool reviewed) { return Term{reviewed ? said("is reviewed") : said("stands")}; };
-  const auto sum = [](bool compensatory) { return Term{compensatory ? said("compensatory") : said("non-compensatory")}; };
+  const auto open = [](bool passes) {
+    return Term{passes ? noop("may pass") : noop("is reviewed")};
+  };
+  const auto in_bound = [](bool reviewed) {
+    return Term{reviewed ? noop("is reviewed") : noop("stands")};
+  };
+  const auto sum = [](bool compensatory) {
+    return Term{compensatory ? noop("compensatory") : noop("non-compensatory")};
+  };
   const auto bands_of = [](const scenarios::RubricSpec& of) {
     List list;
     for (const auto& band : of.bands)
-      list.items.push_back(band.most ? msg("{} (at most {})", Authored{band.name}, *band.most) : msg("{}", Authored{band.name}));
+      list.items.push_back(band.most ? msg("{} (at most {})", Authored{band.name}, *band.most)
+                                     : msg("{}", Authored{band.name}));
     return of.bands.empty() ? number({}) : Value(list);
   };
-  change(pass_percent, as_percent(a.pass_percent, k_as_needed), as_percent(b.pass_percent, k_as_needed));
+  change(pass_percent, as_percent(a.pass_percent, k_as_needed),
+         as_percent(b.pass_percent, k_as_needed));
   change(open_step, open(a.open_step_passes), open(b.open_step_passes));
   change(within_bound, in_bound(a.review_within_bound), in_bound(b.review_within_bound));
-  change(borderline_percent, as_percent(a.borderline_percent, k_as_needed), as_percent(b.borderline_percent, k_as_needed));
+  change(borderline_percent, as_percent(a.borderline_percent, k_as_needed),
+         as_percent(b.borderline_percent, k_as_needed));
   change(rule, sum(a.compensatory), sum(b.compensatory));
   change(bands, bands_of(a), bands_of(b));
   return rules;
@@ -110,7 +126,9 @@ std::optional<OldResult> read_old_result(const std::string& json_text) {
   const auto number_of = [](const Json& from, const char* name) {
     return from.contains(name) && from[name].is_number() ? from[name].get<double>() : 0.0;
   };
-  if (!j.is_object() || !j.contains("verdict") || !j["verdict"].is_string() || !j.contains("score") || !j["score"].is_object()) return {};
+  if (!j.is_object() || !j.contains("verdict") || !j["verdict"].is_string() ||
+      !j.contains("score") || !j["score"].is_object())
+    return {};
   OldResult r;
   r.verdict = one_line(j["verdict"].get<std::string>());
   r.points = number_of(j["score"], "points");
@@ -133,7 +151,8 @@ Number signed_points(double difference) {
   return {std::fabs(difference) < k_shown ? 0.0 : difference, Unit::none, 1, 0.0, true};
 }
 
-Comparison compare(const OldResult& sealed, const Result& again, const scenarios::RubricSpec& old_rubric, const Result& now,
+Comparison compare(const OldResult& sealed, const Result& again,
+                   const scenarios::RubricSpec& old_rubric, const Result& now,
                    const scenarios::RubricSpec& new_rubric) {
   Comparison c;
   c.before = sealed;
@@ -160,15 +179,19 @@ Comparison compare(const OldResult& sealed, const Result& again, const scenarios
       const scenarios::CriterionSpec* was = find(old_rubric.criteria, n.id);
       const scenarios::CriterionSpec* is = find(new_rubric.criteria, n.id);
       if (was != nullptr && is != nullptr) changes_of_spec(*was, *is, d.why);
-      if (a != nullptr && a->metric == n.metric && !same(a->value, n.value)) d.why.push_back({ChangeKind::other_scenario});
+      if (a != nullptr && a->metric == n.metric && !same(a->value, n.value))
+        d.why.push_back({ChangeKind::other_scenario});
       if (a != nullptr && (!same(a->value, o->value) || !same(a->points, o->points))) {
         c.tampered = true;
         d.why.push_back({ChangeKind::sealed_otherwise});
       }
-      if (constexpr double k_shown = 5e-4; o->value && n.value && std::fabs(*o->value - *n.value) >= k_shown)
-        d.why.push_back({ChangeKind::value, as_unit(*o->value, unit_of(n.unit).value_or(Unit::none), 3),
+      if (constexpr double k_shown = 5e-4;
+          o->value && n.value && std::fabs(*o->value - *n.value) >= k_shown)
+        d.why.push_back({ChangeKind::value,
+                         as_unit(*o->value, unit_of(n.unit).value_or(Unit::none), 3),
                          as_unit(*n.value, unit_of(n.unit).value_or(Unit::none), 3)});
-      if (a != nullptr && !same(a->work_share, n.work_share)) d.why.push_back({ChangeKind::work_share});
+      if (a != nullptr && !same(a->work_share, n.work_share))
+        d.why.push_back({ChangeKind::work_share});
     }
     c.criteria.push_back(std::move(d));
   }
@@ -196,26 +219,33 @@ Message all_of(const Changes& changes) {
   return msg("{}", list);
 }
 
-bool Comparison::differs() const { return verdict != before.verdict || !same(points, before.points) || !same(max, before.max); }
+bool Comparison::differs() const {
+  return verdict != before.verdict || !same(points, before.points) || !same(max, before.max);
+}
 
 Message regrade_text(const Comparison& c) {
   const auto result = [](const std::string& verdict, double points, double max) {
     return msg("{}, {} of {} points", Term{verdict}, as_points(points), as_points(max));
   };
-  const Message now = result(c.verdict, c.points, c.max), sealed = result(c.before.verdict, c.before.points, c.before.max);
-  const Message by = c.entry                                    ? msg("what the ledger keeps with entry {}", *c.entry)
-                     : !c.rubric.empty() && !c.scenario.empty() ? msg("the rubric {} and the scenario {}", c.rubric, c.scenario)
-                     : !c.rubric.empty()                        ? msg("the rubric {}", c.rubric)
-                     : !c.scenario.empty()                      ? msg("the scenario {}", c.scenario)
-                                                                : msg("this version of the program");
-  return c.tampered ? msg("{} (marked by: {}); the exam was sealed as {}, which is not what grading gives: the result was tampered "
-                          "with, or its station's program was, or is another one",
-                          now, by, sealed)
-                    : msg("{} (marked by: {}); the exam was sealed as {}", now, by, sealed);
+  const Message now = result(c.verdict, c.points, c.max),
+                sealed = result(c.before.verdict, c.before.points, c.before.max);
+  const Message by = c.entry ? msg("what the ledger keeps with entry {}", *c.entry)
+                     : !c.rubric.empty() && !c.scenario.empty()
+                         ? msg("the rubric {} and the scenario {}", c.rubric, c.scenario)
+                     : !c.rubric.empty()   ? msg("the rubric {}", c.rubric)
+                     : !c.scenario.empty() ? msg("the scenario {}", c.scenario)
+                                           : msg("this version of the program");
+  return c.tampered
+             ? msg("{} (marked by: {}); the exam was sealed as {}, which is not what grading gives: the result was tampered "
+                   "with, or its station's program was, or is another one",
+                   now, by, sealed)
+             : msg("{} (marked by: {}); the exam was sealed as {}", now, by, sealed);
 }
 
 Json to_json(const Comparison& c) {
-  const auto optional = [&](const std::optional<double>& v) { return v ? Json(rounded(*v)) : Json(nullptr); };
+  const auto optional = [&](const std::optional<double>& v) {
+    return v ? Json(rounded(*v)) : Json(nullptr);
+  };
   const auto json_of = [](const Changes& changes) {
     Json all = Json::array();
     for (const Change& change : changes) {
@@ -237,8 +267,14 @@ Json to_json(const Comparison& c) {
                     {"unit", d.unit},
                     {"difference", rounded(d.difference())},
                     {"changed", json_of(d.why)}});
-  return {{"by", {{"rubric", c.rubric}, {"scenario", c.scenario}, {"entry", c.entry ? Json(*c.entry) : Json(nullptr)}}},
-          {"old", {{"verdict", c.before.verdict}, {"points", rounded(c.before.points)}, {"max", rounded(c.before.max)}}},
+  return {{"by",
+           {{"rubric", c.rubric},
+            {"scenario", c.scenario},
+            {"entry", c.entry ? Json(*c.entry) : Json(nullptr)}}},
+          {"old",
+           {{"verdict", c.before.verdict},
+            {"points", rounded(c.before.points)},
+            {"max", rounded(c.before.max)}}},
           {"new", {{"verdict", c.verdict}, {"points", rounded(c.points)}, {"max", rounded(c.max)}}},
           {"criteria", list},
           {"rules", json_of(c.rules)},
@@ -251,10 +287,19 @@ Lines to_text(const Comparison& c) {
   };
   Lines out;
   out.row({Message(), msg("old"), msg("new"), msg("change"), msg("what changed")});
-  out.row({msg("verdict"), msg("{}", Term{c.before.verdict}), msg("{}", Term{c.verdict}), {}, all_of(c.rules)});
-  out.row({msg("points"), points(c.before.points, c.before.max), points(c.points, c.max), msg("{}", signed_points(c.points - c.before.points)), {}});
+  out.row({msg("verdict"),
+           msg("{}", Term{c.before.verdict}),
+           msg("{}", Term{c.verdict}),
+           {},
+           all_of(c.rules)});
+  out.row({msg("points"),
+           points(c.before.points, c.before.max),
+           points(c.points, c.max),
+           msg("{}", signed_points(c.points - c.before.points)),
+           {}});
   for (const auto& d : c.criteria) {
-    out.row({Name{d.id}, points(d.old_points, d.old_max), points(d.new_points, d.new_max), msg("{}", signed_points(d.difference())), all_of(d.why)});
+    out.row({Name{d.id}, points(d.old_points, d.old_max), points(d.new_points, d.new_max),
+             msg("{}", signed_points(d.difference())), all_of(d.why)});
   }
   return out;
 }

@@ -1,5 +1,6 @@
-// Regrading and appeal: a new result beside the one that a session was sealed with, criterion by criterion, and what made the
-// difference. The old result is read from the session and never written to.
+// Regrading and appeal: a new result beside the one that a session was sealed with, criterion by
+// criterion, and what made the difference. The old result is read from the session and never
+// written to.
 #pragma once
 
 #include <cstdint>
@@ -61,11 +62,14 @@ struct CriterionChange {
   std::string id, unit;
   std::optional<double> old_points, old_max, old_value, new_points, new_max, new_value;
   Changes why;  ///< empty when nothing changed
-  [[nodiscard]] double difference() const { return new_points.value_or(0) - old_points.value_or(0); }
+  [[nodiscard]] double difference() const {
+    return new_points.value_or(0) - old_points.value_or(0);
+  }
 };
 
 struct Comparison {
-  /// What it was marked anew by: these files, or what the ledger keeps with an entry. None of them: this version of the program.
+  /// What it was marked anew by: these files, or what the ledger keeps with an entry. None of them:
+  /// this version of the program.
   std::string rubric, scenario;
   std::optional<std::uint64_t> entry;
   OldResult before;
@@ -78,9 +82,11 @@ struct Comparison {
   [[nodiscard]] bool differs() const;
 };
 
-/// `again` is the session graded by this program with its own scenario and rubric: what differs between it and the sealed
-/// result comes from the program, the rest from the new rubric or scenario.
-[[nodiscard]] Comparison compare(const OldResult& sealed, const Result& again, const scenarios::RubricSpec& old_rubric, const Result& now,
+/// `again` is the session graded by this program with its own scenario and rubric: what differs
+/// between it and the sealed result comes from the program, the rest from the new rubric or
+/// scenario.
+[[nodiscard]] Comparison compare(const OldResult& sealed, const Result& again,
+                                 const scenarios::RubricSpec& old_rubric, const Result& now,
                                  const scenarios::RubricSpec& new_rubric);
 
 /// One sentence after the other.
@@ -89,8 +95,9 @@ struct Comparison {
 [[nodiscard]] Number signed_points(double difference);
 /// Says that a result is a regrade, by what, and what the session was sealed with: one sentence.
 [[nodiscard]] Message regrade_text(const Comparison& comparison);
-/// {by{rubric,scenario,entry}, old{verdict,points,max}, new{verdict,points,max}, criteria[]{id, old_points, old_max, old_value, new_points, new_max,
-/// new_value, unit, difference, changed[]}, rules[]}; a change is {kind, from, to, text}
+/// {by{rubric,scenario,entry}, old{verdict,points,max}, new{verdict,points,max}, criteria[]{id,
+/// old_points, old_max, old_value, new_points, new_max, new_value, unit, difference, changed[]},
+/// rules[]}; a change is {kind, from, to, text}
 [[nodiscard]] nlohmann::ordered_json to_json(const Comparison& comparison);
 [[nodiscard]] Lines to_text(const Comparison& comparison);
 

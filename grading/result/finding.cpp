@@ -9,12 +9,15 @@
 namespace cavum::grading {
 namespace {
 
-[[noreturn]] void refuse() { throw Error(msg("result"), msg("is none as grading writes it"), msg("use an intact copy")); }
+[[noreturn]] void refuse() {
+  throw Error(msg("result"), msg("is none as grading writes it"), msg("use an intact copy"));
+}
 
 }  // namespace
 
 Value finding_detail::as_sealed(Value value) {
-  if (auto* n = std::get_if<Number>(&value)) n->value = rounded(n->value), n->bound = rounded(n->bound);
+  if (auto* n = std::get_if<Number>(&value))
+    n->value = rounded(n->value), n->bound = rounded(n->bound);
   if (auto* p = std::get_if<Vec3>(&value)) *p = {rounded(p->x), rounded(p->y), rounded(p->z)};
   return value;
 }
@@ -28,7 +31,8 @@ List sentences(const Findings& findings) {
 Fact fact_of(const Finding& f) {
   const auto said = f.row().values.begin() + static_cast<std::ptrdiff_t>(f.row().gaps());
   Fact fact(f.row().name, {f.row().values.begin(), said}, f.message());
-  for (std::size_t i = f.row().gaps(); i < f.values.size(); ++i) fact = std::move(fact).with(f.row().values[i], f.values[i]);
+  for (std::size_t i = f.row().gaps(); i < f.values.size(); ++i)
+    fact = std::move(fact).with(f.row().values[i], f.values[i]);
   return fact;
 }
 

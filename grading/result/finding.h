@@ -1,5 +1,6 @@
-// What a result says beside its figures: why the verdict is what it is, and what a reader must know. Each is a kind with its values; who decides asks
-// for the kind, and only a face puts it into words. One table has all kinds.
+// What a result says beside its figures: why the verdict is what it is, and what a reader must
+// know. Each is a kind with its values; who decides asks for the kind, and only a face puts it into
+// words. One table has all kinds.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +15,8 @@
 
 namespace cavum::grading {
 
-/// Whom a finding concerns: `examiner` leaves the verdict to an examiner; `detail` is of use to examiners alone.
+/// Whom a finding concerns: `examiner` leaves the verdict to an examiner; `detail` is of use to
+/// examiners alone.
 enum class Concerns : std::uint8_t { reader, examiner, detail };
 
 // FINDING(kind, Concerns, English sentence, names of its values)
@@ -145,7 +147,8 @@ enum class FindingKind : std::uint8_t {
 };
 
 inline constexpr FactRow k_findings[] = {
-#define CAVUM_FINDING_ROW(KIND, CONCERNS, ENGLISH, ...) {#KIND, static_cast<std::size_t>(FindingKind::KIND), ENGLISH, {__VA_ARGS__}},
+#define CAVUM_FINDING_ROW(KIND, CONCERNS, ENGLISH, ...) \
+  {#KIND, static_cast<std::size_t>(FindingKind::KIND), ENGLISH, {__VA_ARGS__}},
     CAVUM_FINDINGS(CAVUM_FINDING_ROW)
 #undef CAVUM_FINDING_ROW
 };
@@ -157,7 +160,9 @@ inline constexpr Concerns k_finding_concerns[] = {
 };
 
 struct Finding : TableFact<FindingKind> {
-  [[nodiscard]] Concerns concerns() const noexcept { return k_finding_concerns[static_cast<std::size_t>(kind)]; }
+  [[nodiscard]] Concerns concerns() const noexcept {
+    return k_finding_concerns[static_cast<std::size_t>(kind)];
+  }
   /// Leaves the verdict to an examiner.
   [[nodiscard]] bool asks_examiner() const noexcept { return concerns() == Concerns::examiner; }
   friend bool operator==(const Finding&, const Finding&) = default;
@@ -174,7 +179,8 @@ namespace finding_detail {
 /// A finding of this kind: the compiler counts its values.
 template <FindingKind kind, class... A>
 [[nodiscard]] Finding finding(A&&... values) {
-  return {fact_of<kind>(finding_detail::as_sealed(message_detail::value_of(std::forward<A>(values)))...)};
+  return {fact_of<kind>(
+      finding_detail::as_sealed(message_detail::value_of(std::forward<A>(values)))...)};
 }
 
 /// With its words.

@@ -8,7 +8,8 @@
 namespace cavum::grading {
 
 Value value_text(const scenarios::Measure& measure, double value, double bound, int digits) {
-  if (measure.reads == scenarios::Reads::yes_no && (value == 0 || value == 1)) return Term{value == 1 ? measure.yes : measure.no};
+  if (measure.reads == scenarios::Reads::yes_no && (value == 0 || value == 1))
+    return Term{value == 1 ? measure.yes : measure.no};
   if (measure.reads == scenarios::Reads::count && bound == 0) return as_number(value);
   return Number{value, unit_of(measure.unit).value_or(Unit::none), digits, bound};
 }
@@ -20,16 +21,22 @@ Message drop_text(const ForceDrop& d) {
                felt_s = as_s(static_cast<double>(d.felt_tick) * k_tick_s, 3);
   switch (d.severity()) {
     case DropSeverity::not_felt:
-      return msg("resistance fell by {}, {} of what the filled tooth would give, within {}: not to be felt", missing, share, within);
+      return msg(
+          "resistance fell by {}, {} of what the filled tooth would give, within {}: not to be felt",
+          missing, share, within);
     case DropSeverity::faint:
-      return msg("resistance fell by {}, {} of what the filled tooth would give, within {}: faint", missing, share, within);
+      return msg("resistance fell by {}, {} of what the filled tooth would give, within {}: faint",
+                 missing, share, within);
     case DropSeverity::felt:
-      return msg("resistance fell by {}, {} of what the filled tooth would give, within {}: felt clearly from {} on", missing, share, within, felt_s);
+      return msg(
+          "resistance fell by {}, {} of what the filled tooth would give, within {}: felt clearly from {} on",
+          missing, share, within, felt_s);
     case DropSeverity::felt_and_cut_on:
       break;
   }
-  return msg("resistance fell by {}, {} of what the filled tooth would give, within {}: felt clearly from {} on, and cutting continued for {}",
-             missing, share, within, felt_s, as_s(d.cut_on_s, 2));
+  return msg(
+      "resistance fell by {}, {} of what the filled tooth would give, within {}: felt clearly from {} on, and cutting continued for {}",
+      missing, share, within, felt_s, as_s(d.cut_on_s, 2));
 }
 
 namespace {
@@ -47,16 +54,19 @@ void put_first(Findings& facts, const Trace& t) {
 }
 
 std::size_t largest(const std::array<double, scenarios::k_walls + 1>& by_wall) {
-  return static_cast<std::size_t>(std::max_element(by_wall.begin(), by_wall.end()) - by_wall.begin());
+  return static_cast<std::size_t>(std::max_element(by_wall.begin(), by_wall.end()) -
+                                  by_wall.begin());
 }
 
 Loss missed(const Result& r) {
   const auto w = largest(r.volumes.missed_by_wall_mm3);
   const Trace& last = r.volumes.target_last[w];
-  const Number all = as_mm3(r.volumes.missed.mm3, 2, r.volumes.missed.bound_mm3), most = as_mm3(r.volumes.missed_by_wall_mm3[w], 2);
+  const Number all = as_mm3(r.volumes.missed.mm3, 2, r.volumes.missed.bound_mm3),
+               most = as_mm3(r.volumes.missed_by_wall_mm3[w], 2);
   const Term wall = scenarios::wall_text(w, r.shape.facing);
   if (last.tick < 0) return {{finding<Kind::target_left_uncut>(all, wall, most, id_of(w))}, last};
-  if (!last.timed()) return {{finding<Kind::target_left_partly_cut>(all, wall, most, id_of(w))}, last};
+  if (!last.timed())
+    return {{finding<Kind::target_left_partly_cut>(all, wall, most, id_of(w))}, last};
   return {{finding<Kind::target_left>(all, wall, most, seconds(last), last.tick, id_of(w))}, last};
 }
 
@@ -77,8 +87,10 @@ Loss removed_in(const Result& r, const std::vector<scenarios::Zone>& zones) {
   }
   const Term wall = scenarios::wall_text(w, r.shape.facing);
   const Number volume = as_mm3(most, 2);
-  Loss loss{{worst == scenarios::Zone::none ? finding<Kind::removed_outside>(wall, volume, id_of(w))
-                                            : finding<Kind::removed_in_zone>(Term{scenarios::zone_name(worst)}, wall, volume, id_of(w))},
+  Loss loss{{worst == scenarios::Zone::none
+                 ? finding<Kind::removed_outside>(wall, volume, id_of(w))
+                 : finding<Kind::removed_in_zone>(Term{scenarios::zone_name(worst)}, wall, volume,
+                                                  id_of(w))},
             first};
   put_first(loss.what, first);
   return loss;
@@ -91,7 +103,8 @@ Findings ends(const Result& r, std::size_t first) {
     const auto& e = r.shape.end_error[i];
     const Term end{scenarios::wall_name(static_cast<scenarios::Wall>(i), r.shape.facing)};
     const Number part = as_mm(e.part_mm, 2), beyond = as_mm(std::fabs(e.beyond_mm), 2);
-    facts.push_back(e.beyond_mm >= 0 ? finding<Kind::end_too_far>(part, end, beyond) : finding<Kind::end_short>(part, end, beyond));
+    facts.push_back(e.beyond_mm >= 0 ? finding<Kind::end_too_far>(part, end, beyond)
+                                     : finding<Kind::end_short>(part, end, beyond));
   }
   return facts;
 }
@@ -103,7 +116,8 @@ Loss cut_at(Finding fact, const Trace& at) {
   return loss;
 }
 
-/// When the exam's clock, which stands still in pauses, had run for so long; tick -1 when it never did.
+/// When the exam's clock, which stands still in pauses, had run for so long; tick -1 when it never
+/// did.
 Trace clock_at(const Result& r, double seconds) {
   auto tick = static_cast<std::int64_t>(std::floor(seconds * k_ticks_per_second));
   for (const auto& p : r.pauses)
@@ -123,10 +137,12 @@ Loss removed_in_zones(const Result& r, const Asked& a) { return removed_in(r, a.
 
 Loss missed_and_beyond(const Result& r, const Asked& a) {
   Loss over = removed_in(r, a.marking->zones);
-  const BoundedVolume& in_target = r.volumes.zone[static_cast<std::size_t>(scenarios::Zone::target)].removed;
+  const BoundedVolume& in_target =
+      r.volumes.zone[static_cast<std::size_t>(scenarios::Zone::target)].removed;
   Loss all = missed(r);
   if (over.first.tick < 0) return all;
-  all.what.push_back(finding<Kind::removed_beyond>(as_mm3(r.volumes.removed.mm3 - in_target.mm3, 2)));
+  all.what.push_back(
+      finding<Kind::removed_beyond>(as_mm3(r.volumes.removed.mm3 - in_target.mm3, 2)));
   all.what.insert(all.what.end(), over.what.begin(), over.what.end());
   return {std::move(all.what), over.first};
 }
@@ -134,7 +150,8 @@ Loss missed_and_beyond(const Result& r, const Asked& a) {
 Loss at_walls(const Result& r, const Asked& a) {
   const scenarios::WallFigure figure = a.measure.figure;
   const std::size_t first = a.measure.first_wall, end = first + a.measure.walls;
-  const bool over = figure == scenarios::WallFigure::max_over, under = figure == scenarios::WallFigure::max_under,
+  const bool over = figure == scenarios::WallFigure::max_over,
+             under = figure == scenarios::WallFigure::max_under,
              p95 = figure == scenarios::WallFigure::p95;
   const auto size = [&](const WallMeasures& m) { return wall_figure(m, figure); };
   std::size_t worst = end;
@@ -149,46 +166,57 @@ Loss at_walls(const Result& r, const Asked& a) {
   const bool thick = &t == &m.worst_under;
   const Term wall = scenarios::wall_text(worst, r.shape.facing);
   const Number furthest = as_mm(thick ? m.max_under_mm : m.max_over_mm, 2);
-  Loss loss{{over && m.over_outside ? finding<Kind::wall_beyond_container>(furthest, wall, id_of(worst))
-             : over                 ? finding<Kind::wall_overcut>(wall, furthest, id_of(worst))
-             : under                ? finding<Kind::wall_thick>(wall, furthest, id_of(worst))
-             : p95 && thick         ? finding<Kind::wall_p95_thick>(wall, furthest, id_of(worst))
-             : p95                  ? finding<Kind::wall_p95_overcut>(wall, furthest, id_of(worst))
-             : thick                ? finding<Kind::wall_mean_thick>(wall, furthest, id_of(worst))
-                                    : finding<Kind::wall_mean_overcut>(wall, furthest, id_of(worst))},
-            t};
+  Loss loss{
+      {over && m.over_outside ? finding<Kind::wall_beyond_container>(furthest, wall, id_of(worst))
+       : over                 ? finding<Kind::wall_overcut>(wall, furthest, id_of(worst))
+       : under                ? finding<Kind::wall_thick>(wall, furthest, id_of(worst))
+       : p95 && thick         ? finding<Kind::wall_p95_thick>(wall, furthest, id_of(worst))
+       : p95                  ? finding<Kind::wall_p95_overcut>(wall, furthest, id_of(worst))
+       : thick                ? finding<Kind::wall_mean_thick>(wall, furthest, id_of(worst))
+                              : finding<Kind::wall_mean_overcut>(wall, furthest, id_of(worst))},
+      t};
   if (t.timed()) loss.what.push_back(finding<Kind::cut_site>(t.site_mm, seconds(t), t.tick));
   if (!t.timed() && t.tick >= 0) loss.what.push_back(finding<Kind::site>(t.site_mm));
-  if (t.tick < 0 && thick && m.max_under_mm > 0) loss.what.push_back(finding<Kind::site_uncut>(t.site_mm));
+  if (t.tick < 0 && thick && m.max_under_mm > 0)
+    loss.what.push_back(finding<Kind::site_uncut>(t.site_mm));
   return loss;
 }
 
 Loss length_error(const Result& r, const Asked&) {
   if (!r.shape.length_mm) return {};
   Loss loss{ends(r, 0), {}};
-  loss.what.push_back(finding<Kind::length>(as_mm(*r.shape.length_mm, 2), as_mm(r.shape.target_length_mm, 2)));
+  loss.what.push_back(
+      finding<Kind::length>(as_mm(*r.shape.length_mm, 2), as_mm(r.shape.target_length_mm, 2)));
   return loss;
 }
 
 Loss width_error(const Result& r, const Asked&) {
   if (!r.shape.width_mm) return {};
   Loss loss{ends(r, 2), {}};
-  loss.what.push_back(finding<Kind::width>(as_mm(*r.shape.width_mm, 2), as_mm(r.shape.target_width_mm, 2)));
+  loss.what.push_back(
+      finding<Kind::width>(as_mm(*r.shape.width_mm, 2), as_mm(r.shape.target_width_mm, 2)));
   return loss;
 }
 
 Loss depth_error(const Result& r, const Asked&) {
   if (!r.shape.depth_mm) return {};
-  return {{finding<Kind::depth>(as_mm(*r.shape.depth_mm, 2), as_mm(r.shape.target_depth_mm, 2))}, {}};
+  return {{finding<Kind::depth>(as_mm(*r.shape.depth_mm, 2), as_mm(r.shape.target_depth_mm, 2))},
+          {}};
 }
 
 Loss taper_error(const Result& r, const Asked&) {
-  return {{finding<Kind::taper>(as_deg(*r.shape.taper_deg, 1), as_deg(*r.access.target_taper_deg, 1))}, {}};
+  return {
+      {finding<Kind::taper>(as_deg(*r.shape.taper_deg, 1), as_deg(*r.access.target_taper_deg, 1))},
+      {}};
 }
 
-Loss overhang(const Result& r, const Asked&) { return {{finding<Kind::roof_left>(r.access.overhang_middle_mm)}, {}}; }
+Loss overhang(const Result& r, const Asked&) {
+  return {{finding<Kind::roof_left>(r.access.overhang_middle_mm)}, {}};
+}
 
-Loss canals_covered(const Result& r, const Asked&) { return {{finding<Kind::canals_covered>(r.access.canals_covered_mm)}, {}}; }
+Loss canals_covered(const Result& r, const Asked&) {
+  return {{finding<Kind::canals_covered>(r.access.canals_covered_mm)}, {}};
+}
 
 Loss floor_cut(const Result& r, const Asked&) {
   if (r.access.floor_first.tick < 0) return {{finding<Kind::floor_uncut>()}, {}};
@@ -199,7 +227,9 @@ Loss floor_cut(const Result& r, const Asked&) {
 
 Loss dentin_over_pulp(const Result& r, const Asked&) {
   const Trace& at = r.over_pulp.thinnest;
-  return cut_at(*r.over_pulp.dentin_mm > 0 ? finding<Kind::dentin_thinnest>(at.site_mm) : finding<Kind::pulp_opened>(at.site_mm), at);
+  return cut_at(*r.over_pulp.dentin_mm > 0 ? finding<Kind::dentin_thinnest>(at.site_mm)
+                                           : finding<Kind::pulp_opened>(at.site_mm),
+                at);
 }
 
 Loss nick(const Result& r, const Asked&) {
@@ -242,7 +272,8 @@ Loss fault_opened(const Result& r, const Asked&) {
   const PerforationTruth& t = r.perforation.fault;
   if (!t.perforated) return {{finding<Kind::nothing_opened>()}, {}};
   const Number area = as_mm2(t.area_mm2, 3);
-  Loss loss{{t.volume_mm3 > 0 ? finding<Kind::tissue_opened_and_removed>(Term{t.tissue}, area, as_mm3(t.volume_mm3, 3))
+  Loss loss{{t.volume_mm3 > 0 ? finding<Kind::tissue_opened_and_removed>(Term{t.tissue}, area,
+                                                                         as_mm3(t.volume_mm3, 3))
                               : finding<Kind::tissue_opened>(Term{t.tissue}, area)},
             t.first};
   put_first(loss.what, t.first);
@@ -269,7 +300,8 @@ Loss fault_felt(const Result& r, const Asked&) {
 Loss tissue_touched(const Result& r, const Asked& a) {
   const Term tissue{a.measure.tissue};
   for (const auto& t : r.tissues)
-    if (const Trace& first = r.volumes.tissue_first[t.id]; t.name == a.measure.tissue && first.tick >= 0) {
+    if (const Trace& first = r.volumes.tissue_first[t.id];
+        t.name == a.measure.tissue && first.tick >= 0) {
       Loss loss{{finding<Kind::tissue_touched>(tissue)}, first};
       put_first(loss.what, first);
       return loss;

@@ -24,21 +24,24 @@ MetricValue in_zones(const Result& r, const Asked& a) {
   return sum;
 }
 
-/// The largest figure of the measure's walls. The true one lies between the largest of the lower ends of all walls and the largest of the upper ends.
+/// The largest figure of the measure's walls. The true one lies between the largest of the lower
+/// ends of all walls and the largest of the upper ends.
 MetricValue worst_wall(const Result& r, const Asked& a) {
   const scenarios::WallFigure figure = a.measure.figure;
   std::optional<double> worst;
   double low = 0, high = 0;
   for (std::size_t w = a.measure.first_wall; w < a.measure.first_wall + a.measure.walls; ++w) {
     const WallMeasures& wall = r.shape.wall[w];
-    if (wall.samples == 0 && figure != scenarios::WallFigure::max_over) continue;  // no overcut where nothing was cut
+    if (wall.samples == 0 && figure != scenarios::WallFigure::max_over)
+      continue;  // no overcut where nothing was cut
     const double v = wall_figure(wall, figure), bound = wall_bound_mm(r.shape, wall, figure);
     if (a.measure.walls == 1) return {v, bound};
     low = worst ? std::max(low, v - bound) : v - bound;
     high = worst ? std::max(high, v + bound) : v + bound;
     worst = worst ? std::max(*worst, v) : v;
   }
-  return worst ? MetricValue{worst, std::max(high - *worst, *worst - low)} : MetricValue{std::nullopt, r.shape.bound_mm};
+  return worst ? MetricValue{worst, std::max(high - *worst, *worst - low)}
+               : MetricValue{std::nullopt, r.shape.bound_mm};
 }
 
 MetricValue of_tissue(const Result& r, const Asked& a) {
@@ -54,14 +57,17 @@ MetricValue taper_difference(const Result& r) {
 }
 
 MetricValue fault_events(const Result& r) {
-  return exactly(static_cast<double>(
-      std::count_if(r.perforation.events.begin(), r.perforation.events.end(), [](const auto& e) { return e.fault && e.confirmed; })));
+  return exactly(
+      static_cast<double>(std::count_if(r.perforation.events.begin(), r.perforation.events.end(),
+                                        [](const auto& e) { return e.fault && e.confirmed; })));
 }
 
 /// Every zone; without the target, what lies beyond it.
 std::vector<scenarios::Zone> all_zones(bool with_target) {
-  std::vector<scenarios::Zone> zones{scenarios::Zone::leeway_sides,     scenarios::Zone::leeway_bottom, scenarios::Zone::container_sides,
-                                     scenarios::Zone::container_bottom, scenarios::Zone::protected_,    scenarios::Zone::none};
+  std::vector<scenarios::Zone> zones{
+      scenarios::Zone::leeway_sides,    scenarios::Zone::leeway_bottom,
+      scenarios::Zone::container_sides, scenarios::Zone::container_bottom,
+      scenarios::Zone::protected_,      scenarios::Zone::none};
   if (with_target) zones.insert(zones.begin(), scenarios::Zone::target);
   return zones;
 }
@@ -72,12 +78,15 @@ std::string place_in(const char* pointer, const scenarios::Measure& m) {
   return place.ends_with('/') ? place + m.name : place;
 }
 
-/// The families' places: the wall's or the tissue's object, in it the figure's or the tissue's name.
+/// The families' places: the wall's or the tissue's object, in it the figure's or the tissue's
+/// name.
 std::string family_place(const scenarios::Measure& m, bool bound) {
-  if (!m.tissue.empty()) return fmt::format("{}/tissue_mm3/{}", bound ? "/volumes/bounds" : "/volumes", m.tissue);
+  if (!m.tissue.empty())
+    return fmt::format("{}/tissue_mm3/{}", bound ? "/volumes/bounds" : "/volumes", m.tissue);
   if (m.walls != 1) return "";
-  return fmt::format("/walls/{}{}{}", scenarios::wall_name(static_cast<scenarios::Wall>(m.first_wall)), bound ? "/bounds/" : "/",
-                     scenarios::wall_figure_name(m.figure));
+  return fmt::format("/walls/{}{}{}",
+                     scenarios::wall_name(static_cast<scenarios::Wall>(m.first_wall)),
+                     bound ? "/bounds/" : "/", scenarios::wall_figure_name(m.figure));
 }
 
 }  // namespace
@@ -89,15 +98,19 @@ const MeasureMarking& marking_of(const scenarios::Measure& measure) {
   static const std::vector<MeasureMarking> k_rows{
 #define IN(OBJECT) .json = OBJECT, .bound_json = OBJECT "bounds/"
 #define IN_OVERCUT .json = "/volumes/overcut/", .bound_json = "/volumes/bounds/"
-#define MEASURE(NAME, WORDS, WHAT, VALUE, REASON, MOMENTS, PLACE) \
-  {.measure = NAME, .value = []([[maybe_unused]] R r, [[maybe_unused]] A a) -> MetricValue { return VALUE; }, .reason = reason::REASON IN_ROW PLACE},
-#define FAMILY(KEY, MEMBERS, VALUE, REASON, MOMENTS) MEASURE(scenarios::KEY, , , VALUE, REASON, MOMENTS, ())
+#define MEASURE(NAME, WORDS, WHAT, VALUE, REASON, MOMENTS, PLACE)                            \
+  {.measure = NAME,                                                                          \
+   .value = []([[maybe_unused]] R r, [[maybe_unused]] A a) -> MetricValue { return VALUE; }, \
+   .reason = reason::REASON IN_ROW PLACE},
+#define FAMILY(KEY, MEMBERS, VALUE, REASON, MOMENTS) \
+  MEASURE(scenarios::KEY, , , VALUE, REASON, MOMENTS, ())
 #include "scenarios/file/measures_table.inc"
 #undef IN
 #undef IN_OVERCUT
   };
   const std::string key = measure.key();
-  return *std::find_if(k_rows.begin(), k_rows.end(), [&](const MeasureMarking& row) { return row.measure == key; });
+  return *std::find_if(k_rows.begin(), k_rows.end(),
+                       [&](const MeasureMarking& row) { return row.measure == key; });
 }
 
 Asked asked(const std::string& metric, double full) {
@@ -106,8 +119,10 @@ Asked asked(const std::string& metric, double full) {
   return a;
 }
 
-std::string json_place(const scenarios::Measure& m) { return m.family != nullptr ? family_place(m, false) : place_in(marking_of(m).json, m); }
-std::string bound_json_place(const scenarios::Measure& m) {
+std::string json_location(const scenarios::Measure& m) {
+  return m.family != nullptr ? family_place(m, false) : place_in(marking_of(m).json, m);
+}
+std::string bound_json_location(const scenarios::Measure& m) {
   return m.family != nullptr ? family_place(m, true) : place_in(marking_of(m).bound_json, m);
 }
 
@@ -125,20 +140,30 @@ double wall_figure(const WallMeasures& w, scenarios::WallFigure figure) noexcept
   return w.max_under_mm;
 }
 
-double wall_bound_mm(const ShapeMeasures& shape, const WallMeasures& w, scenarios::WallFigure figure) noexcept {
+double wall_bound_mm(const ShapeMeasures& shape, const WallMeasures& w,
+                     scenarios::WallFigure figure) noexcept {
   if (w.samples == 0) return shape.bound_mm;
-  return figure == scenarios::WallFigure::mean ? w.mean_bound_mm : figure == scenarios::WallFigure::p95 ? w.p95_bound_mm : shape.bound_mm;
+  return figure == scenarios::WallFigure::mean  ? w.mean_bound_mm
+         : figure == scenarios::WallFigure::p95 ? w.p95_bound_mm
+                                                : shape.bound_mm;
 }
 
 bool not_shown(const Result& r, const scenarios::Measure& measure) {
   if (!r.not_shown) return false;
   if (measure.of_exam || measure.name == "soft_tissue_outside_mm3") return true;
-  if (measure.needs == scenarios::Needs::neighbour || measure.needs == scenarios::Needs::gum) return true;  // a tooth is scanned alone
-  return std::any_of(r.tissues.begin(), r.tissues.end(), [&](const Tissue& t) { return t.name == measure.tissue && r.not_shown->tissue[t.id]; });
+  if (measure.needs == scenarios::Needs::neighbour || measure.needs == scenarios::Needs::gum)
+    return true;  // a tooth is scanned alone
+  return std::any_of(r.tissues.begin(), r.tissues.end(), [&](const Tissue& t) {
+    return t.name == measure.tissue && r.not_shown->tissue[t.id];
+  });
 }
 
-MetricValue value_of(const Result& r, const Asked& a) { return not_shown(r, a.measure) ? MetricValue{} : a.marking->value(r, a); }
+MetricValue value_of(const Result& r, const Asked& a) {
+  return not_shown(r, a.measure) ? MetricValue{} : a.marking->value(r, a);
+}
 
-MetricValue metric_value(const Result& r, const std::string& metric) { return value_of(r, asked(metric, 0)); }
+MetricValue metric_value(const Result& r, const std::string& metric) {
+  return value_of(r, asked(metric, 0));
+}
 
 }  // namespace cavum::grading

@@ -53,8 +53,10 @@ Json truth_json(const PerforationTruth& t) {
 Json wall_json(const WallMeasures& w, const ShapeMeasures& shape) {
   Json figures = Json::object(), bounds = Json::object();
   for (const scenarios::WallFigure f : scenarios::k_wall_figures) {
-    figures[scenarios::wall_figure_name(f)] = w.samples == 0 ? Json(nullptr) : Json(rounded(wall_figure(w, f)));
-    bounds[scenarios::wall_figure_name(f)] = w.samples == 0 ? Json(nullptr) : Json(rounded(wall_bound_mm(shape, w, f)));
+    figures[scenarios::wall_figure_name(f)] =
+        w.samples == 0 ? Json(nullptr) : Json(rounded(wall_figure(w, f)));
+    bounds[scenarios::wall_figure_name(f)] =
+        w.samples == 0 ? Json(nullptr) : Json(rounded(wall_bound_mm(shape, w, f)));
   }
   figures["bounds"] = bounds;
   figures["samples"] = w.samples;
@@ -65,31 +67,40 @@ Json wall_json(const WallMeasures& w, const ShapeMeasures& shape) {
   return figures;
 }
 
-/// Puts the measures whose place is directly in one of these objects there, in the order of the table. Counts are not among them.
+/// Puts the measures whose place is directly in one of these objects there, in the order of the
+/// table. Counts are not among them.
 void put_values(Json& j, const Result& r, std::initializer_list<const char*> objects) {
   for (const auto& m : scenarios::measures()) {
     if (m.family != nullptr || marking_of(m).whole) continue;
-    const std::string at = json_place(m);
+    const std::string at = json_location(m);
     for (const std::string object : objects)
-      if (!at.empty() && at.substr(0, at.rfind('/') + 1) == object) j[Json::json_pointer(at)] = optional(metric_value(r, m.name).value);
+      if (!at.empty() && at.substr(0, at.rfind('/') + 1) == object)
+        j[Json::json_pointer(at)] = optional(metric_value(r, m.name).value);
   }
 }
 /// The same of bounds.
 void put_bounds(Json& j, const Result& r, const std::string& object) {
   for (const auto& m : scenarios::measures()) {
     if (m.family != nullptr) continue;
-    const std::string at = bound_json_place(m);
-    if (!at.empty() && at.substr(0, at.rfind('/') + 1) == object) j[Json::json_pointer(at)] = rounded(metric_value(r, m.name).bound);
+    const std::string at = bound_json_location(m);
+    if (!at.empty() && at.substr(0, at.rfind('/') + 1) == object)
+      j[Json::json_pointer(at)] = rounded(metric_value(r, m.name).bound);
   }
 }
 
 Json score_json(const Result& r) {
-  Json j = {{"points", rounded(r.points)},      {"max", rounded(r.max_points)},
-            {"bound", rounded(r.points_bound)}, {"rule", r.compensatory ? "compensatory" : "non-compensatory"},
-            {"pass_percent", r.pass_percent},   {"borderline_percent", r.borderline_percent}};
+  Json j = {{"points", rounded(r.points)},
+            {"max", rounded(r.max_points)},
+            {"bound", rounded(r.points_bound)},
+            {"rule", r.compensatory ? "compensatory" : "non-compensatory"},
+            {"pass_percent", r.pass_percent},
+            {"borderline_percent", r.borderline_percent}};
   if (r.bands.empty()) return j;
   j["bands"] = Json::array();
-  for (const auto& b : r.bands) j["bands"].push_back({{"name", b.name}, {"criteria", b.criteria}, {"most", b.most ? Json(*b.most) : Json(nullptr)}});
+  for (const auto& b : r.bands)
+    j["bands"].push_back({{"name", b.name},
+                          {"criteria", b.criteria},
+                          {"most", b.most ? Json(*b.most) : Json(nullptr)}});
   return j;
 }
 
@@ -138,7 +149,8 @@ void put_volumes(Json& j, const Result& r) {
 void put_shape(Json& j, const Result& r) {
   j["walls"] = Json::object();
   for (std::size_t w = 0; w < scenarios::k_walls; ++w)
-    j["walls"][scenarios::wall_name(static_cast<scenarios::Wall>(w))] = wall_json(r.shape.wall[w], r.shape);
+    j["walls"][scenarios::wall_name(static_cast<scenarios::Wall>(w))] =
+        wall_json(r.shape.wall[w], r.shape);
   put_values(j, r, {"/shape/"});
   j["shape"].update({{"target_length_mm", rounded(r.shape.target_length_mm)},
                      {"target_width_mm", rounded(r.shape.target_width_mm)},
@@ -158,15 +170,18 @@ void put_access(Json& j, const Result& r) {
 
 /// Only where it is asked for: a session graded before this was known grades to the same text.
 void put_pulp(Json& j, const Result& r) {
-  const auto asks = [](const CriterionResult& c) { return json_place(scenarios::known_measure(c.metric)).starts_with("/pulp/"); };
+  const auto asks = [](const CriterionResult& c) {
+    return json_location(scenarios::known_measure(c.metric)).starts_with("/pulp/");
+  };
   if (std::none_of(r.criteria.begin(), r.criteria.end(), asks)) return;
   put_values(j, r, {"/pulp/"});
-  j["pulp"].update({{"thinnest_site_mm", place_of(r.over_pulp.thinnest)}, {"thinnest_tick", tick_of(r.over_pulp.thinnest)}});
+  j["pulp"].update({{"thinnest_site_mm", place_of(r.over_pulp.thinnest)},
+                    {"thinnest_tick", tick_of(r.over_pulp.thinnest)}});
   put_bounds(j, r, "/pulp/bounds/");
 }
 
 /// Only where something stands beside the tooth.
-void put_beside(Json& j, const Result& r) {
+void put_adjacent(Json& j, const Result& r) {
   if (!r.beside.neighbours && !r.beside.gum) return;
   put_values(j, r, {"/beside/"});
   j["beside"].update({{"neighbours", r.beside.neighbours},
@@ -189,7 +204,11 @@ Json perforation_json(const PerforationMeasures& p) {
                       {"advance_mm", rounded(e.advance_mm)},
                       {"kind", e.fault ? "fault" : "aim"},
                       {"confirmed", e.confirmed}});
-  return {{"detected", p.detected()}, {"events", events}, {"truth", truth_json(p.fault)}, {"aim", truth_json(p.aim)}, {"agree", p.agree()}};
+  return {{"detected", p.detected()},
+          {"events", events},
+          {"truth", truth_json(p.fault)},
+          {"aim", truth_json(p.aim)},
+          {"agree", p.agree()}};
 }
 
 Json pauses_json(const Result& r) {
@@ -200,10 +219,12 @@ Json pauses_json(const Result& r) {
     if (p.by_office) list.back()["by_office"] = true;
     sum += p.end - p.begin;
   }
-  return {{"count", r.pauses.size()}, {"ticks", sum}, {"refused", r.pauses_refused}, {"list", list}};
+  return {
+      {"count", r.pauses.size()}, {"ticks", sum}, {"refused", r.pauses_refused}, {"list", list}};
 }
 
-/// Only where there is something to say: a session graded before these were known grades to the same text.
+/// Only where there is something to say: a session graded before these were known grades to the
+/// same text.
 void restore(Json& j, const Result& r) {
   const auto& a = r.accommodations;
   if (a != scenarios::Accommodations{}) {
@@ -216,7 +237,8 @@ void restore(Json& j, const Result& r) {
   if (!r.pauses.empty() || r.pauses_refused > 0) j["pauses"] = pauses_json(r);
   if (r.motion.lost_s > 0) j["lost_time_s"] = rounded(r.motion.lost_s);
   if (r.motion.late_ticks > 0) j["late_removed_mm3"] = rounded(r.motion.late_removed_mm3);
-  if (r.late_work.ticks > 0) j["late_work"] = {{"ticks", r.late_work.ticks}, {"pedal_ticks", r.late_work.pedal_ticks}};
+  if (r.late_work.ticks > 0)
+    j["late_work"] = {{"ticks", r.late_work.ticks}, {"pedal_ticks", r.late_work.pedal_ticks}};
 }
 
 }  // namespace
@@ -236,10 +258,12 @@ Json to_json(const Result& r) {
   put_shape(j, r);
   put_access(j, r);
   put_pulp(j, r);
-  put_beside(j, r);
+  put_adjacent(j, r);
   j["perforation"] = perforation_json(r.perforation);
   put_values(j, r, {"/", "/force/"});
-  j["steps"] = {{"count", r.progress.steps}, {"completed", r.progress.steps_completed}, {"failed", r.progress.steps_failed}};
+  j["steps"] = {{"count", r.progress.steps},
+                {"completed", r.progress.steps_completed},
+                {"failed", r.progress.steps_failed}};
   j["violations"] = r.progress.violations;
   j["finish"] = r.not_shown ? "scan" : finish_name(r.progress.finish);
   j["extra_time_percent"] = r.accommodations.extra_time_percent;
@@ -252,7 +276,9 @@ Json to_json(const Result& r) {
   return j;
 }
 
-Verdict verdict_in(const nlohmann::json& result) { return json_value_of<Verdict>(member_of(result, "verdict"), {msg("the result's verdict"), {}}); }
+Verdict verdict_in(const nlohmann::json& result) {
+  return json_value_of<Verdict>(member_of(result, "verdict"), {msg("the result's verdict"), {}});
+}
 
 Json with_words(Json result) {
   const auto put = [](Json& findings) {
@@ -276,8 +302,9 @@ namespace {
 
 void add_verdict(Lines& out, const Result& r) {
   out.add(msg("{} ({})", Authored{r.scenario_title}, Authored{r.tooth_name}));
-  out.add(msg("verdict: {}, {} of {} points (± {} if every figure were off by its whole bound)", word_of(r.verdict), as_points(r.points),
-              as_points(r.max_points), as_points(r.points_bound)));
+  out.add(msg("verdict: {}, {} of {} points (± {} if every figure were off by its whole bound)",
+              word_of(r.verdict), as_points(r.points), as_points(r.max_points),
+              as_points(r.points_bound)));
   for (const Finding& reason : r.verdict_reasons) out.add(reason.message(), 2);
 }
 
@@ -292,16 +319,23 @@ void add_criteria(Lines& out, const Result& r) {
 }
 
 void add_volumes(Lines& out, const Result& r) {
-  const auto volume = [&](const Message& name, const BoundedVolume& v) { out.row({name, msg("{}", as_mm3(v.mm3, 2, v.bound_mm3))}, 2); };
+  const auto volume = [&](const Message& name, const BoundedVolume& v) {
+    out.row({name, msg("{}", as_mm3(v.mm3, 2, v.bound_mm3))}, 2);
+  };
   out.gap();
   out.add(msg("volumes"));
   volume(msg("target"), r.volumes.target);
-  out.row({msg("target removed"), msg("{}", as_percent(r.volumes.target_removed_percent, 1, r.volumes.target_removed_bound_percent))}, 2);
+  out.row({msg("target removed"), msg("{}", as_percent(r.volumes.target_removed_percent, 1,
+                                                       r.volumes.target_removed_bound_percent))},
+          2);
   volume(msg("missed"), r.volumes.missed);
   volume(msg("removed"), r.volumes.removed);
-  const auto zone = [&](scenarios::Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].alone(); };
+  const auto zone = [&](scenarios::Zone z) {
+    return r.volumes.zone[static_cast<std::size_t>(z)].alone();
+  };
   for (const scenarios::Zone z :
-       {scenarios::Zone::leeway_sides, scenarios::Zone::leeway_bottom, scenarios::Zone::container_sides, scenarios::Zone::container_bottom})
+       {scenarios::Zone::leeway_sides, scenarios::Zone::leeway_bottom,
+        scenarios::Zone::container_sides, scenarios::Zone::container_bottom})
     volume(msg("{}", Term{scenarios::zone_name(z)}), zone(z));
   volume(msg("outside"), r.volumes.outside());
   volume(msg("outside, protected"), zone(scenarios::Zone::protected_));
@@ -318,8 +352,9 @@ void add_walls(Lines& out, const Result& r) {
     if (m.samples == 0)
       out.row({name, msg("not cut"), {}, {}, {}}, 2);
     else
-      out.row({name, msg("{}", as_mm(m.mean_mm, 2, m.mean_bound_mm)), msg("{}", as_mm(m.p95_mm, 2, m.p95_bound_mm)),
-               msg("{}", as_mm(m.max_over_mm, 2)), msg("{}", as_mm(m.max_under_mm, 2))},
+      out.row({name, msg("{}", as_mm(m.mean_mm, 2, m.mean_bound_mm)),
+               msg("{}", as_mm(m.p95_mm, 2, m.p95_bound_mm)), msg("{}", as_mm(m.max_over_mm, 2)),
+               msg("{}", as_mm(m.max_under_mm, 2))},
               2);
   }
 }
@@ -327,7 +362,8 @@ void add_walls(Lines& out, const Result& r) {
 void add_cavity(Lines& out, const Result& r) {
   out.gap();
   out.add(msg("cavity"));
-  const auto shape = [&](const Message& name, const std::optional<double>& v, double bound, Unit unit) {
+  const auto shape = [&](const Message& name, const std::optional<double>& v, double bound,
+                         Unit unit) {
     out.row({name, v ? msg("{}", Number{*v, unit, 2, bound}) : msg("not cut")}, 2);
   };
   shape(msg("length"), r.shape.length_mm, r.shape.bound_mm, Unit::mm);
@@ -338,48 +374,64 @@ void add_cavity(Lines& out, const Result& r) {
 
 void add_truth(Lines& out, const Message& kind, const PerforationTruth& t) {
   const Term tissue{t.tissue};
-  const Number area = as_mm2(t.area_mm2, 3, t.area_bound_mm2), volume = as_mm3(t.volume_mm3, 3, t.bound_mm3);
+  const Number area = as_mm2(t.area_mm2, 3, t.area_bound_mm2),
+               volume = as_mm3(t.volume_mm3, 3, t.bound_mm3);
   if (!t.perforated)
     out.add(msg("tissue: {} not opened", kind), 2);
   else if (t.first.timed())
-    out.add(msg("tissue: {}, {} opened first at {}, {} of its wall lie open, {} removed", kind, tissue, as_s(t.first.t_s(), 3), area, volume), 2);
+    out.add(msg("tissue: {}, {} opened first at {}, {} of its wall lie open, {} removed", kind,
+                tissue, as_s(t.first.t_s(), 3), area, volume),
+            2);
   else
-    out.add(msg("tissue: {}, {} opened, {} of its wall lie open, {} removed", kind, tissue, area, volume), 2);
-  if (t.outside_mm3 > 0) out.add(msg("{} removed from outside the tooth, which is no perforation", as_mm3(t.outside_mm3, 3)), 2);
+    out.add(msg("tissue: {}, {} opened, {} of its wall lie open, {} removed", kind, tissue, area,
+                volume),
+            2);
+  if (t.outside_mm3 > 0)
+    out.add(
+        msg("{} removed from outside the tooth, which is no perforation", as_mm3(t.outside_mm3, 3)),
+        2);
   if (t.drop) out.add(msg("drop: {}, {}", kind, drop_text(*t.drop)), 2);
 }
 
 void add_perforation(Lines& out, const Result& r) {
   out.gap();
   out.add(msg("perforation"));
-  if (r.perforation.events.empty() && r.perforation.force_known) out.add(msg("no breakthrough seen in the force"), 2);
+  if (r.perforation.events.empty() && r.perforation.force_known)
+    out.add(msg("no breakthrough seen in the force"), 2);
   for (const auto& e : r.perforation.events) {
     const Message kind = e.fault ? msg("fault") : msg("aim");
-    const Number t = as_s(static_cast<double>(e.tick) * k_tick_s, 3), before = as_n(e.force_before_n, 2), after = as_n(e.force_after_n, 2);
-    out.add(e.confirmed ? msg("force: {} at {}, {} to {}, confirmed by the tissue", kind, t, before, after)
-                        : msg("force: {} at {}, {} to {}, not confirmed by the tissue", kind, t, before, after),
-            2);
+    const Number t = as_s(static_cast<double>(e.tick) * k_tick_s, 3),
+                 before = as_n(e.force_before_n, 2), after = as_n(e.force_after_n, 2);
+    out.add(
+        e.confirmed
+            ? msg("force: {} at {}, {} to {}, confirmed by the tissue", kind, t, before, after)
+            : msg("force: {} at {}, {} to {}, not confirmed by the tissue", kind, t, before, after),
+        2);
   }
   add_truth(out, msg("fault"), r.perforation.fault);
   if (r.perforation.has_aims) add_truth(out, msg("aim"), r.perforation.aim);
-  if (r.perforation.aim_unseen()) out.add(msg("the breakthrough into the aim was not seen in the force, which costs nothing"), 2);
+  if (r.perforation.aim_unseen())
+    out.add(msg("the breakthrough into the aim was not seen in the force, which costs nothing"), 2);
 }
 
 void add_motion(Lines& out, const Result& r) {
   if (r.not_shown) return;
   const MotionMeasures& m = r.motion;
   out.gap();
-  out.add(msg("time {} (handpiece {}, idle {}), way {}, force {} mean, {} peak", as_s(m.time_s, 1), as_s(m.handpiece_time_s, 1), as_s(m.idle_s, 1),
-              as_mm(m.path_mm, 0), as_n(m.force_mean_n, 2), as_n(m.force_peak_n, 2)));
-  out.add(msg("steps {} of {}, violations {}, ended: {}", r.progress.steps_completed, r.progress.steps, r.progress.violations,
-              Term{finish_name(r.progress.finish)}));
+  out.add(msg("time {} (handpiece {}, idle {}), way {}, force {} mean, {} peak", as_s(m.time_s, 1),
+              as_s(m.handpiece_time_s, 1), as_s(m.idle_s, 1), as_mm(m.path_mm, 0),
+              as_n(m.force_mean_n, 2), as_n(m.force_peak_n, 2)));
+  out.add(msg("steps {} of {}, violations {}, ended: {}", r.progress.steps_completed,
+              r.progress.steps, r.progress.violations, Term{finish_name(r.progress.finish)}));
 }
 
 }  // namespace
 
 Lines to_text(const Result& r) {
   Lines out;
-  for (auto* add : {add_verdict, add_criteria, add_volumes, add_walls, add_cavity, add_perforation, add_motion}) add(out, r);
+  for (auto* add :
+       {add_verdict, add_criteria, add_volumes, add_walls, add_cavity, add_perforation, add_motion})
+    add(out, r);
   for (const Finding& note : r.notes) out.add(msg("note: {}", note.message()));
   return out;
 }

@@ -8,7 +8,8 @@ Tooth coarse_tooth(const Tooth& tooth) {
   const TissueGrid fine = tooth.octree.to_grid();
   TissueGrid grid;
   const auto half = [](int n) { return (n + 1) / 2; };
-  grid.allocate({half(fine.size.x), half(fine.size.y), half(fine.size.z)}, 2 * fine.leaf_mm, fine.origin_mm);
+  grid.allocate({half(fine.size.x), half(fine.size.y), half(fine.size.z)}, 2 * fine.leaf_mm,
+                fine.origin_mm);
   const Octree& tree = tooth.octree;
   std::size_t i = 0;
   for (int z = 0; z < grid.size.z; ++z)
@@ -19,7 +20,8 @@ Tooth coarse_tooth(const Tooth& tooth) {
         for (int k = 0; k < 8; ++k) {
           const IVec3 leaf{2 * x + (k & 1), 2 * y + (k >> 1 & 1), 2 * z + (k >> 2)};
           const bool in = fine.inside(leaf);
-          label[static_cast<std::size_t>(k)] = in ? fine.tissue[fine.index(leaf)] : std::uint8_t{k_air};
+          label[static_cast<std::size_t>(k)] =
+              in ? fine.tissue[fine.index(leaf)] : std::uint8_t{k_air};
           sum += in ? fine.distance[fine.index(leaf)] : k_distance_far;
         }
         const bool solid = sum < 0;

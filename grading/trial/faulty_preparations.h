@@ -1,5 +1,6 @@
-// Faulty preparations for a scenario on its tooth: what anybody could hand in that is not the target. One table; which rows apply follows from the
-// scenario (aims, faults, a tissue to be excavated).
+// Faulty preparations for a scenario on its tooth: what anybody could hand in that is not the
+// target. One table; which rows apply follows from the scenario (aims, faults, a tissue to be
+// excavated).
 #pragma once
 
 #include <string>
@@ -36,7 +37,8 @@ struct FaultyPreparation {
   Message what;      ///< what is cut
   Mistake mistake = Mistake::too_little;
   Cut cut;
-  /// So like the target where that is symmetric that it may be right: counts only when at least a quarter of the target is left or removed beyond.
+  /// So like the target where that is symmetric that it may be right: counts only when at least a
+  /// quarter of the target is left or removed beyond.
   bool may_be_right = false;
   std::string measure{};  ///< the one that should catch it before all others; may be empty
   bool waits = false;     ///< until time is up
@@ -46,7 +48,8 @@ struct FaultyPreparation {
 /// The honest piece of work: exactly the target.
 [[nodiscard]] Cut honest_cut(const TargetField& field);
 /// All that apply. `field` must outlive them. The random ones are drawn by a fixed seed.
-[[nodiscard]] std::vector<FaultyPreparation> faulty_preparations(const Task& task, const TargetField& field);
+[[nodiscard]] std::vector<FaultyPreparation> faulty_preparations(const Task& task,
+                                                                 const TargetField& field);
 
 /// Steps of an error that grows: more of it must never be better.
 struct Ladder {
@@ -59,6 +62,7 @@ struct Ladder {
 [[nodiscard]] std::vector<Ladder> ladders(const Task& task, const TargetField& field);
 
 /// Where work reaches that goes so far below the target, tooth frame.
-[[nodiscard]] CutBox box_of_work(const TargetField& field, double below_mm = FaultyPreparation{}.below_mm);
+[[nodiscard]] CutBox box_of_work(const TargetField& field,
+                                 double below_mm = FaultyPreparation{}.below_mm);
 
 }  // namespace cavum::grading

@@ -15,7 +15,8 @@ constexpr std::int64_t k_ticks_per_layer = 2, k_lead_ticks = 20;
 
 /// So that no cube is passed over for a distance that is none: the octree asks at a cube's centre.
 double careful(double distance_mm, double leaf_mm) {
-  const double brick_mm = (0.5 * Octree::k_brick_edge * k_half_diagonal + k_distance_band_leaves) * leaf_mm;
+  const double brick_mm =
+      (0.5 * Octree::k_brick_edge * k_half_diagonal + k_distance_band_leaves) * leaf_mm;
   return std::min(distance_mm, brick_mm);
 }
 
@@ -33,7 +34,8 @@ Carved carve(const Tooth& tooth, const Cut& cut, const CutBox& box) {
   c.leaves.reserve(most);
   const auto shape = [&](Vec3 p) { return careful(cut(p), leaf); };
   if (!c.after.carve(box.low_mm, box.high_mm, shape, c.leaves))
-    throw Error(msg("trial"), msg("a piece of work needs more room than was reserved"), msg("report it with the scenario"));
+    throw Error(msg("trial"), msg("a piece of work needs more room than was reserved"),
+                msg("report it with the scenario"));
   return c;
 }
 
@@ -45,11 +47,13 @@ struct Moment {
 
 class Sitting {
  public:
-  explicit Sitting(const Task& task) : task_(task), runner_(task.scenario, task.zones, task.tooth, task.scenario.burs) {}
+  explicit Sitting(const Task& task)
+      : task_(task), runner_(task.scenario, task.zones, task.tooth, task.scenario.burs) {}
 
   /// One tick; what is done once the exam is over is late work.
   void tick(const Moment& m, std::span<const RemovedLeaf> gone) {
-    const TickInput input = make_tick_input({m.tip_mm, {}}, m.cuts ? 1.0 : 0.0, k_stylus_fresh | k_pedal_fresh, 0, {});
+    const TickInput input =
+        make_tick_input({m.tip_mm, {}}, m.cuts ? 1.0 : 0.0, k_stylus_fresh | k_pedal_fresh, 0, {});
     TickOutput output;
     output.proxy_mm = m.tip_mm;
     output.contact = output.cutting = m.cuts;
@@ -61,17 +65,20 @@ class Sitting {
       output.normal = task_.zones.approach();
     }
     output.removed_count = static_cast<std::uint32_t>(gone.size());
-    for (const auto& leaf : gone) removed_.push_back({static_cast<std::int64_t>(inputs_.size()), leaf});
+    for (const auto& leaf : gone)
+      removed_.push_back({static_cast<std::int64_t>(inputs_.size()), leaf});
     runner_.advance(*state_, input, output, gone);
     inputs_.push_back(input);
     records_.push_back(make_tick_record(output));
   }
   /// Over, or nothing is left to do in it.
   [[nodiscard]] bool done() const {
-    return state_->finish != Finish::running || static_cast<std::size_t>(state_->step) >= task_.scenario.steps.size();
+    return state_->finish != Finish::running ||
+           static_cast<std::size_t>(state_->step) >= task_.scenario.steps.size();
   }
 
-  [[nodiscard]] Result hand_in(const Octree& after, const std::function<void(const GradeInput&, const Result&)>& look) {
+  [[nodiscard]] Result hand_in(const Octree& after,
+                               const std::function<void(const GradeInput&, const Result&)>& look) {
     runner_.end(*state_);
     const std::vector<TimedEvent> events = state_->events_from(0);
     const auto marked = [&](const GradeInput& in) {
@@ -80,11 +87,12 @@ class Sitting {
       return r;
     };
     if (!task_.apart)
-      return marked({task_.scenario, task_.tooth, task_.zones, after, inputs_, records_, removed_, events, -1, nullptr, &task_.around});
+      return marked({task_.scenario, task_.tooth, task_.zones, after, inputs_, records_, removed_,
+                     events, -1, nullptr, &task_.around});
     const WorkApart own = take_apart(*task_.apart, after, removed_);
-    const GradeBeside beside{*task_.apart, task_.tooth, after, removed_};
-    return marked(
-        {task_.scenario, task_.apart->own, task_.zones, own.after, inputs_, records_, own.removed, events, -1, nullptr, &task_.around, &beside});
+    const AdjacentInput beside{*task_.apart, task_.tooth, after, removed_};
+    return marked({task_.scenario, task_.apart->own, task_.zones, own.after, inputs_, records_,
+                   own.removed, events, -1, nullptr, &task_.around, &beside});
   }
 
  private:
@@ -97,10 +105,13 @@ class Sitting {
 };
 
 /// Leaves by how far out they lie, the outermost first, in layers of a leaf.
-std::vector<std::vector<RemovedLeaf>> in_layers(const std::vector<RemovedLeaf>& leaves, const Octree& tree, Vec3 out) {
+std::vector<std::vector<RemovedLeaf>> in_layers(const std::vector<RemovedLeaf>& leaves,
+                                                const Octree& tree, Vec3 out) {
   std::vector<std::vector<RemovedLeaf>> layers;
   if (leaves.empty()) return layers;
-  const auto height = [&](const RemovedLeaf& l) { return dot(tree.centre_mm(l.leaf()), out) / tree.leaf_mm(); };
+  const auto height = [&](const RemovedLeaf& l) {
+    return dot(tree.centre_mm(l.leaf()), out) / tree.leaf_mm();
+  };
   double top = height(leaves.front());
   for (const auto& l : leaves) top = std::max(top, height(l));
   for (const auto& l : leaves) {
@@ -113,10 +124,13 @@ std::vector<std::vector<RemovedLeaf>> in_layers(const std::vector<RemovedLeaf>& 
 
 }  // namespace
 
-Task make_task(const scenarios::Scenario& scenario, const Tooth& tooth, const scenarios::ZoneMap& zones) {
+Task make_task(const scenarios::Scenario& scenario, const Tooth& tooth,
+               const scenarios::ZoneMap& zones) {
   std::array<bool, 256> either{};
   for (const auto* names : {&scenario.perforation.aims, &scenario.perforation.faults})
-    for (const auto& t : tooth.tissues) either[t.id] = either[t.id] || std::find(names->begin(), names->end(), t.name) != names->end();
+    for (const auto& t : tooth.tissues)
+      either[t.id] =
+          either[t.id] || std::find(names->begin(), names->end(), t.name) != names->end();
   auto apart = take_apart(tooth);
   const auto around = tissues_around(apart ? apart->own : tooth, either);
   return {scenario, tooth, zones, around, std::move(apart)};
@@ -130,9 +144,11 @@ Result sit(const Task& task, const Cut& cut, const CutBox& box, std::int64_t wai
   Sitting sitting(task);
   for (std::int64_t i = 0; i < k_lead_ticks; ++i) sitting.tick({above, false}, {});
   for (const auto& layer : in_layers(carved.leaves, task.tooth.octree, out)) {
-    const Vec3 tip = layer.empty() ? above : task.tooth.octree.centre_mm(layer[layer.size() / 2].leaf());
+    const Vec3 tip =
+        layer.empty() ? above : task.tooth.octree.centre_mm(layer[layer.size() / 2].leaf());
     for (std::int64_t i = 0; i < k_ticks_per_layer; ++i)
-      sitting.tick({tip, true}, i == 0 ? std::span<const RemovedLeaf>(layer) : std::span<const RemovedLeaf>());
+      sitting.tick({tip, true},
+                   i == 0 ? std::span<const RemovedLeaf>(layer) : std::span<const RemovedLeaf>());
   }
   for (std::int64_t i = 0; i < k_lead_ticks; ++i) sitting.tick({above, false}, {});
   for (std::int64_t i = 0; i < wait_ticks && !sitting.done(); ++i) sitting.tick({above, false}, {});

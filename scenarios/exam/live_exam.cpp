@@ -6,20 +6,27 @@
 
 namespace cavum::scenarios {
 
-LiveExam::LiveExam(const ExamSetup& setup, const std::string& path, ServoDevice& device, Vec3 first_tip_mm, const RealTimeOptions& options)
+LiveExam::LiveExam(const ExamSetup& setup, const std::string& path, ServoDevice& device,
+                   Vec3 first_tip_mm, const RealTimeOptions& options)
     : LiveExam(setup, Exam::start(setup, path, first_tip_mm), device, options) {}
 
-LiveExam::LiveExam(const ExamSetup& setup, std::unique_ptr<Exam> exam, ServoDevice& device, const RealTimeOptions& options)
-    : exam_(std::move(exam)), servo_state_(exam_->state()), device_(device), target_shares_(static_cast<double>(setup.zones.target_shares())) {
+LiveExam::LiveExam(const ExamSetup& setup, std::unique_ptr<Exam> exam, ServoDevice& device,
+                   const RealTimeOptions& options)
+    : exam_(std::move(exam)),
+      servo_state_(exam_->state()),
+      device_(device),
+      target_shares_(static_cast<double>(setup.zones.target_shares())) {
   view_.limit_ticks = exam_->limit_ticks();
   view_.session = exam_->recorder().path();
   view_.instruction = exam_->instruction();
-  servo_ = std::make_unique<RealTimeServo>(exam_->model(), servo_state_, device_, stream_, exam_->last_input(), options);
-  writer_ = std::make_unique<SessionWriter>(stream_, exam_->recorder(), exam_->model().config.tick_s,
-                                            [this](const ServoTick& tick, std::span<const RemovedLeaf>) {
-                                              take(tick);
-                                              return false;
-                                            });
+  servo_ = std::make_unique<RealTimeServo>(exam_->model(), servo_state_, device_, stream_,
+                                           exam_->last_input(), options);
+  writer_ =
+      std::make_unique<SessionWriter>(stream_, exam_->recorder(), exam_->model().config.tick_s,
+                                      [this](const ServoTick& tick, std::span<const RemovedLeaf>) {
+                                        take(tick);
+                                        return false;
+                                      });
 }
 
 LiveExam::~LiveExam() { finish(); }
@@ -66,7 +73,9 @@ void LiveExam::show(const ServoTick& tick) {
   view_.output = tick.output;
   if (const auto& removed = exam_->state().removed; !removed.empty()) {
     const auto share_of = [&removed](std::uint8_t tissue) {
-      const auto count = std::count_if(removed.begin(), removed.end(), [tissue](const RemovedLeaf& leaf) { return leaf.tissue == tissue; });
+      const auto count =
+          std::count_if(removed.begin(), removed.end(),
+                        [tissue](const RemovedLeaf& leaf) { return leaf.tissue == tissue; });
       return static_cast<double>(count) / static_cast<double>(removed.size());
     };
     view_.enamel_share = share_of(k_enamel);

@@ -29,7 +29,8 @@ double number_in(const std::string& text, double most, const Where& where) {
 }
 
 bool truth_in(const std::string& text, const Where& where) {
-  if (text != "true" && text != "false") throw Error(where, msg("'{}' is neither true nor false", text), msg("use one of them"));
+  if (text != "true" && text != "false")
+    throw Error(where, msg("'{}' is neither true nor false", text), msg("use one of them"));
   return text == "true";
 }
 
@@ -37,14 +38,19 @@ bool truth_in(const std::string& text, const Where& where) {
 
 void require_sound(const Grant& g, const Where& where) {
   const auto within = [&](const std::optional<double>& v, double most, const Message& name) {
-    if (v && !(*v >= 0 && *v <= most)) throw Error(where, msg("{} cannot be {}", name, as_number(*v)), msg("use 0 to {}", as_number(most)));
+    if (v && !(*v >= 0 && *v <= most))
+      throw Error(where, msg("{} cannot be {}", name, as_number(*v)),
+                  msg("use 0 to {}", as_number(most)));
   };
   within(g.extra_time_percent, k_max_percent, msg("extra time in percent"));
   within(g.extra_time_s, k_max_s, msg("extra time in seconds"));
   if (g.extra_time_percent && *g.extra_time_percent > 0 && *g.extra_time_percent < 1)
     throw Error(
-        where, msg("extra time of {} is less than one percent", as_percent(*g.extra_time_percent, k_as_needed)),
-        msg("say {} for an exam that is longer by {} percent", as_number(100 * *g.extra_time_percent), as_number(100 * *g.extra_time_percent)));
+        where,
+        msg("extra time of {} is less than one percent",
+            as_percent(*g.extra_time_percent, k_as_needed)),
+        msg("say {} for an exam that is longer by {} percent",
+            as_number(100 * *g.extra_time_percent), as_number(100 * *g.extra_time_percent)));
 }
 
 std::vector<std::pair<std::string, std::string>> notes_of(const Grant& g) {
@@ -56,7 +62,9 @@ std::vector<std::pair<std::string, std::string>> notes_of(const Grant& g) {
   return notes;
 }
 
-Accommodations granted(const Accommodations& by_file, const std::vector<std::pair<std::string, std::string>>& notes, const Where& where) {
+Accommodations granted(const Accommodations& by_file,
+                       const std::vector<std::pair<std::string, std::string>>& notes,
+                       const Where& where) {
   Accommodations a = by_file;
   for (const auto& [key, value] : notes) {
     if (key == k_percent) a.extra_time_percent = number_in(value, k_max_percent, where);
@@ -69,7 +77,8 @@ Accommodations granted(const Accommodations& by_file, const std::vector<std::pai
 
 Message accommodations_text(const Accommodations& a) {
   List list;
-  const Number percent = as_percent(a.extra_time_percent, k_as_needed), seconds = as_s(a.extra_time_s, k_as_needed);
+  const Number percent = as_percent(a.extra_time_percent, k_as_needed),
+               seconds = as_s(a.extra_time_s, k_as_needed);
   if (a.extra_time_percent > 0 && a.extra_time_s > 0)
     list.items.push_back(msg("{} and {} extra time", percent, seconds));
   else if (a.extra_time_percent > 0 || a.extra_time_s > 0)

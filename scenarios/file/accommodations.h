@@ -1,5 +1,6 @@
-// What one candidate is granted beside what the scenario's file says. It is kept with the session as notes, so that the
-// scenario stays as its author wrote it, and is taken from there wherever the session is resumed, replayed or graded.
+// What one candidate is granted beside what the scenario's file says. It is kept with the session
+// as notes, so that the scenario stays as its author wrote it, and is taken from there wherever the
+// session is resumed, replayed or graded.
 #pragma once
 
 #include <optional>
@@ -23,9 +24,10 @@ struct Grant {
 void require_sound(const Grant& grant, const Where& where);
 /// As notes of a session, "accommodation.extra_time_percent" = "25" and so on; numbers in full.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> notes_of(const Grant& grant);
-/// What a scenario grants once the notes of a session are heeded. Notes of other kinds are passed over; throws Error on a
-/// value that is none.
-[[nodiscard]] Accommodations granted(const Accommodations& by_file, const std::vector<std::pair<std::string, std::string>>& notes,
+/// What a scenario grants once the notes of a session are heeded. Notes of other kinds are passed
+/// over; throws Error on a value that is none.
+[[nodiscard]] Accommodations granted(const Accommodations& by_file,
+                                     const std::vector<std::pair<std::string, std::string>>& notes,
                                      const Where& where);
 /// "25 % and 60 s extra time, left-handed, high-contrast colours"; empty when nothing is granted.
 [[nodiscard]] Message accommodations_text(const Accommodations& a);

@@ -1,6 +1,7 @@
-// What is known of each kind of body, of the rows of bodies_table.inc: what a file says of it, and what the exam must know of it beside its shape.
-// The reader, the mistakes it names, the comments of `scenario new`, the table of docs/scenarios.md and the numbers that the station offers are made
-// of them.
+// What is known of each kind of body, of the rows of bodies_table.inc: what a file says of it, and
+// what the exam must know of it beside its shape. The reader, the mistakes it names, the comments
+// of `scenario new`, the table of docs/scenarios.md and the numbers that the station offers are
+// made of them.
 #pragma once
 
 #include <string>
@@ -47,7 +48,8 @@ struct PlaceField {};
 struct AxisField {};
 struct SizeField {};
 struct BottomField {};
-/// A prism's outline lies across its axis; one on a side is counted from the neck. Both are drawn: they follow no tissue and no fissure.
+/// A prism's outline lies across its axis; one on a side is counted from the neck. Both are drawn:
+/// they follow no tissue and no fissure.
 enum class OutlineSeen { from_occlusal, along_axis, from_side };
 struct OutlineField {
   OutlineSeen seen;
@@ -56,7 +58,9 @@ struct BodyKind {
   const char *name, *word;
   unsigned is;
   const char* what;
-  std::vector<Field<ShapeSpec, FileField, PlaceField, AxisField, SizeField, BottomField, OutlineField>> fields;
+  std::vector<
+      Field<ShapeSpec, FileField, PlaceField, AxisField, SizeField, BottomField, OutlineField>>
+      fields;
 };
 
 struct PointsField {
@@ -94,10 +98,18 @@ template <class Kind>
   return names;
 }
 
-[[nodiscard]] inline const BodyKind& kind_of(const ShapeSpec& s) { return body_kinds()[static_cast<std::size_t>(s.kind)]; }
-[[nodiscard]] inline const OutlineKind& kind_of(const OutlineSpec& o) { return outline_kinds()[static_cast<std::size_t>(o.kind)]; }
-[[nodiscard]] inline const BottomKind& kind_of(const BottomSpec& b) { return bottom_kinds()[static_cast<std::size_t>(b.kind)]; }
-[[nodiscard]] inline bool body_is(const ShapeSpec& shape, BodyIs what) { return (kind_of(shape).is & what) != 0; }
+[[nodiscard]] inline const BodyKind& kind_of(const ShapeSpec& s) {
+  return body_kinds()[static_cast<std::size_t>(s.kind)];
+}
+[[nodiscard]] inline const OutlineKind& kind_of(const OutlineSpec& o) {
+  return outline_kinds()[static_cast<std::size_t>(o.kind)];
+}
+[[nodiscard]] inline const BottomKind& kind_of(const BottomSpec& b) {
+  return bottom_kinds()[static_cast<std::size_t>(b.kind)];
+}
+[[nodiscard]] inline bool body_is(const ShapeSpec& shape, BodyIs what) {
+  return (kind_of(shape).is & what) != 0;
+}
 /// The first of a body's fields that is of one sort; null where it has none.
 template <class Sort>
 [[nodiscard]] const Sort* field_of(const ShapeSpec& shape) {
@@ -106,7 +118,8 @@ template <class Sort>
   return nullptr;
 }
 
-/// All bodies, outlines and bottoms with their fields, as comments of a scenario; bodies as the table of docs/scenarios.md, with ranges.
+/// All bodies, outlines and bottoms with their fields, as comments of a scenario; bodies as the
+/// table of docs/scenarios.md, with ranges.
 [[nodiscard]] std::string bodies_as_comments();
 [[nodiscard]] std::string bodies_as_table();
 

@@ -1,5 +1,6 @@
-// TOML with all mistakes collected: each value is asked for with what it must be, a wrong one is noted
-// with its place and a harmless default returned, and what was never asked for is an unknown key.
+// TOML with all mistakes collected: each value is asked for with what it must be, a wrong one is
+// noted with its place and a harmless default returned, and what was never asked for is an unknown
+// key.
 #pragma once
 
 #include <toml++/toml.h>
@@ -15,7 +16,8 @@
 
 namespace cavum::scenarios {
 
-/// Items of one list, of texts or of tables: a tray, steps, criteria, bodies. Some are compared with all others, and each body with each leaf.
+/// Items of one list, of texts or of tables: a tray, steps, criteria, bodies. Some are compared
+/// with all others, and each body with each leaf.
 inline constexpr std::size_t k_max_items = 100;
 /// Points of all outlines.
 inline constexpr std::size_t k_max_points = 100;
@@ -25,9 +27,11 @@ inline constexpr std::size_t k_max_tray = 16;
 class ProblemList {
  public:
   explicit ProblemList(std::string path) : path_(std::move(path)) {}
-  void add(const toml::source_region& at, const Message& what, const Message& what_to_do, Mistake mistake = Mistake::other);
+  void add(const toml::source_region& at, const Message& what, const Message& what_to_do,
+           Mistake mistake = Mistake::other);
   [[nodiscard]] std::size_t size() const noexcept { return problems_.size(); }
-  void add(Place at, const Message& what, const Message& what_to_do, Mistake mistake = Mistake::other);
+  void add(Place at, const Message& what, const Message& what_to_do,
+           Mistake mistake = Mistake::other);
   /// Sorted by place.
   [[nodiscard]] std::vector<Problem> take();
 
@@ -39,18 +43,22 @@ class ProblemList {
 /// Reads one table. `name` is how messages call it ("[zones.leeway]").
 class CheckedTable {
  public:
-  CheckedTable(const toml::table& table, Where name, ProblemList& problems) : table_(table), name_(std::move(name)), problems_(problems) {}
+  CheckedTable(const toml::table& table, Where name, ProblemList& problems)
+      : table_(table), name_(std::move(name)), problems_(problems) {}
 
   [[nodiscard]] bool has(std::string_view key) const { return table_.contains(key); }
   /// A number within [low, high]; `fallback` when absent (a problem if `required`) or wrong.
-  double number(std::string_view key, double low, double high, double fallback, bool required = false);
+  double number(std::string_view key, double low, double high, double fallback,
+                bool required = false);
   /// A whole number within [low, high].
   int whole(std::string_view key, int low, int high, int fallback, bool required = false);
   std::string text(std::string_view key, const std::string& fallback, bool required = false);
   bool truth(std::string_view key, bool fallback);
   static constexpr std::size_t k_wrong = static_cast<std::size_t>(-1);
-  /// Index of one of `words`; `fallback` when absent, k_wrong (a problem) for any other word or when absent though `required`.
-  std::size_t word(std::string_view key, const std::vector<std::string>& words, std::size_t fallback, bool required = false);
+  /// Index of one of `words`; `fallback` when absent, k_wrong (a problem) for any other word or
+  /// when absent though `required`.
+  std::size_t word(std::string_view key, const std::vector<std::string>& words,
+                   std::size_t fallback, bool required = false);
   std::vector<std::string> texts(std::string_view key, bool required = false);
   /// A list of numbers within [low, high]; empty when absent or wrong.
   std::vector<double> numbers(std::string_view key, double low, double high);
@@ -63,13 +71,16 @@ class CheckedTable {
   std::vector<const toml::table*> tables(std::string_view key, bool required = false);
   /// Place of a key's value, or of the table.
   [[nodiscard]] toml::source_region where(std::string_view key) const;
-  void problem(std::string_view key, const Message& what, const Message& what_to_do, Mistake mistake = Mistake::other) {
+  void problem(std::string_view key, const Message& what, const Message& what_to_do,
+               Mistake mistake = Mistake::other) {
     problems_.add(where(key), what, what_to_do, mistake);
   }
   /// The same for an item of the list under `key`.
-  void problem_in(std::string_view key, std::size_t item, const Message& what, const Message& what_to_do, Mistake mistake = Mistake::other);
+  void problem_in(std::string_view key, std::size_t item, const Message& what,
+                  const Message& what_to_do, Mistake mistake = Mistake::other);
   /// Notes where a key's value stands (and, under `name/0` and so on, its items), if it is written.
-  void note(std::map<std::string, Place>& places, std::string_view key, const std::string& name) const;
+  void note(std::map<std::string, Place>& places, std::string_view key,
+            const std::string& name) const;
   /// Reports keys that nobody asked for. Call last.
   void finish();
 
@@ -83,7 +94,8 @@ class CheckedTable {
   std::vector<std::string> asked_;
 };
 
-/// The word of `words` closest to `wrong`, as "did you mean 'x'?", or a list of all when none is close.
+/// The word of `words` closest to `wrong`, as "did you mean 'x'?", or a list of all when none is
+/// close.
 [[nodiscard]] Message suggestion(const std::string& wrong, const std::vector<std::string>& words);
 
 }  // namespace cavum::scenarios

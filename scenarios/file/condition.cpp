@@ -15,8 +15,10 @@ namespace {
 using Text = std::string_view;
 
 Text trimmed(Text t) {
-  while (!t.empty() && (t.front() == ' ' || t.front() == '\t' || t.front() == '\n')) t.remove_prefix(1);
-  while (!t.empty() && (t.back() == ' ' || t.back() == '\t' || t.back() == '\n')) t.remove_suffix(1);
+  while (!t.empty() && (t.front() == ' ' || t.front() == '\t' || t.front() == '\n'))
+    t.remove_prefix(1);
+  while (!t.empty() && (t.back() == ' ' || t.back() == '\t' || t.back() == '\n'))
+    t.remove_suffix(1);
   return t;
 }
 
@@ -75,7 +77,9 @@ Outlook either(Outlook a, Outlook b) {
 }
 
 Outlook compare(ValueRange a, Text op, ValueRange b) {
-  const auto of = [](bool always, bool never) { return always ? Outlook::always : never ? Outlook::never : Outlook::perhaps; };
+  const auto of = [](bool always, bool never) {
+    return always ? Outlook::always : never ? Outlook::never : Outlook::perhaps;
+  };
   const bool one = a.low == a.high && b.low == b.high, apart = a.high < b.low || b.high < a.low;
   if (op == "<") return of(a.high < b.low, a.low >= b.high);
   if (op == ">") return of(a.low > b.high, a.high <= b.low);
@@ -92,19 +96,25 @@ bool is_condition(const std::string& text) {
   if (const Found choice = find_outside(t, k_choice); choice.at != Text::npos) {
     const Text rest = t.substr(choice.at + 1);
     const Found colon = find_outside(rest, std::array<Text, 1>{":"});
-    return colon.at != Text::npos && is_condition(std::string(rest.substr(0, colon.at))) && is_condition(std::string(rest.substr(colon.at + 1)));
+    return colon.at != Text::npos && is_condition(std::string(rest.substr(0, colon.at))) &&
+           is_condition(std::string(rest.substr(colon.at + 1)));
   }
   for (const auto& joint : {k_or, k_and})
     if (const Found f = find_outside(t, joint); f.at != Text::npos)
-      return is_condition(std::string(t.substr(0, f.at))) && is_condition(std::string(t.substr(f.at + f.length)));
+      return is_condition(std::string(t.substr(0, f.at))) &&
+             is_condition(std::string(t.substr(f.at + f.length)));
   if (find_outside(t, k_compare).at != Text::npos) return true;
-  constexpr std::array<Text, 7> k_yes_or_no{"contact", "cutting", "button_1", "button_2", "perforated", "0", "1"};
+  constexpr std::array<Text, 7> k_yes_or_no{"contact",    "cutting", "button_1", "button_2",
+                                            "perforated", "0",       "1"};
   return std::find(k_yes_or_no.begin(), k_yes_or_no.end(), t) != k_yes_or_no.end();
 }
 
 namespace {
 
-bool is_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.'; }
+bool is_name(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+         c == '.';
+}
 
 /// What is divided by: the number, name, call or bracket that begins at `from`, with its sign.
 Text divisor(Text t, std::size_t from) {
@@ -132,8 +142,10 @@ double at_zero(Text t) {
 std::optional<ConditionFault> division_fault(Text by) {
   if (by.empty() || at_zero(by) != 0.0) return std::nullopt;
   if (names_in_expression(std::string(by)).empty())
-    return ConditionFault{ConditionFault::Kind::zero, msg("divides by 0"), msg("divide by something else, or take that part out")};
-  return ConditionFault{ConditionFault::Kind::zero_at_first, msg("divides by '{}', which is 0 when an exam begins", by),
+    return ConditionFault{ConditionFault::Kind::zero, msg("divides by 0"),
+                          msg("divide by something else, or take that part out")};
+  return ConditionFault{ConditionFault::Kind::zero_at_first,
+                        msg("divides by '{}', which is 0 when an exam begins", by),
                         msg("multiply instead, or divide by max({}, 1)", by)};
 }
 
@@ -160,13 +172,16 @@ std::optional<ConditionFault> condition_fault(const std::string& text) {
       i += c == '|' || c == '&' ? 1 : 0;
     } else if (c == ',') {
       if (!level.of_a_function)
-        return ConditionFault{ConditionFault::Kind::comma, msg("has a comma, and only what follows it would count"),
+        return ConditionFault{ConditionFault::Kind::comma,
+                              msg("has a comma, and only what follows it would count"),
                               msg("join conditions by && or ||, and write numbers as 0.5")};
       level.comparisons = 0;
-    } else if (const auto op = std::find_if(k_compare.begin(), k_compare.end(), [&](Text o) { return t.substr(i, o.size()) == o; });
+    } else if (const auto op = std::find_if(k_compare.begin(), k_compare.end(),
+                                            [&](Text o) { return t.substr(i, o.size()) == o; });
                op != k_compare.end()) {
       if (++level.comparisons > 1)
-        return ConditionFault{ConditionFault::Kind::chain, msg("is a chain of comparisons, which does not mean what it reads"),
+        return ConditionFault{ConditionFault::Kind::chain,
+                              msg("is a chain of comparisons, which does not mean what it reads"),
                               msg("write for example \"depth_mm > 1 && depth_mm < 5\"")};
       i += op->size() - 1;
     } else if (c == '/') {
@@ -180,9 +195,13 @@ std::optional<ConditionFault> condition_fault(const std::string& text) {
 Outlook judge_condition(const std::string& text, const std::map<std::string, ValueRange>& ranges) {
   const Text t = bare(text);
   if (find_outside(t, k_choice).at != Text::npos) return Outlook::perhaps;
-  const auto part = [&](std::size_t from, std::size_t n) { return judge_condition(std::string(t.substr(from, n)), ranges); };
-  if (const Found f = find_outside(t, k_or); f.at != Text::npos) return either(part(0, f.at), part(f.at + f.length, Text::npos));
-  if (const Found f = find_outside(t, k_and); f.at != Text::npos) return both(part(0, f.at), part(f.at + f.length, Text::npos));
+  const auto part = [&](std::size_t from, std::size_t n) {
+    return judge_condition(std::string(t.substr(from, n)), ranges);
+  };
+  if (const Found f = find_outside(t, k_or); f.at != Text::npos)
+    return either(part(0, f.at), part(f.at + f.length, Text::npos));
+  if (const Found f = find_outside(t, k_and); f.at != Text::npos)
+    return both(part(0, f.at), part(f.at + f.length, Text::npos));
   const auto range_of = [&](Text side) -> std::optional<ValueRange> {
     side = bare(side);
     if (const auto v = number_of(side)) return ValueRange{*v, *v};

@@ -1,5 +1,5 @@
-// What can be said of a condition without running it: whether it is a condition at all, and whether it can come
-// true at all. Reads the grammar of expression.h from the outside in.
+// What can be said of a condition without running it: whether it is a condition at all, and whether
+// it can come true at all. Reads the grammar of expression.h from the outside in.
 #pragma once
 
 #include <map>
@@ -17,8 +17,9 @@ struct ValueRange {
 
 enum class Outlook { never, perhaps, always };
 
-/// False for an expression whose value is a number ("target_removed_percent"): the exam would take any but 0 for yes. Quantities
-/// that are 0 or 1, and the numbers 0 and 1 themselves, are conditions.
+/// False for an expression whose value is a number ("target_removed_percent"): the exam would take
+/// any but 0 for yes. Quantities that are 0 or 1, and the numbers 0 and 1 themselves, are
+/// conditions.
 [[nodiscard]] bool is_condition(const std::string& text);
 
 /// What a condition means otherwise than it reads, and what to write instead.
@@ -27,12 +28,14 @@ struct ConditionFault {
   Kind kind = Kind::comma;
   Message what, what_to_do;
 };
-/// A chain of comparisons (0 < x < 10 compares yes or no with 10), a comma outside a function (only what follows the last one would count),
-/// a division by 0 or by what is 0 when an exam begins. None for a text without. The text must be one that Expression takes.
+/// A chain of comparisons (0 < x < 10 compares yes or no with 10), a comma outside a function (only
+/// what follows the last one would count), a division by 0 or by what is 0 when an exam begins.
+/// None for a text without. The text must be one that Expression takes.
 [[nodiscard]] std::optional<ConditionFault> condition_fault(const std::string& text);
 
-/// Whether a condition can be true when each quantity keeps to its range. Judges comparisons of one quantity with a number,
-/// joined by && and ||; everything else is `perhaps`.
-[[nodiscard]] Outlook judge_condition(const std::string& text, const std::map<std::string, ValueRange>& ranges);
+/// Whether a condition can be true when each quantity keeps to its range. Judges comparisons of one
+/// quantity with a number, joined by && and ||; everything else is `perhaps`.
+[[nodiscard]] Outlook judge_condition(const std::string& text,
+                                      const std::map<std::string, ValueRange>& ranges);
 
 }  // namespace cavum::scenarios

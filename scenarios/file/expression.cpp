@@ -12,12 +12,16 @@ double larger(double a, double b) { return a < b ? b : a; }
 double absolute(double a) { return a < 0 ? -a : a; }
 
 void prepare(mu::Parser& parser, const std::string& text) {
-  // What muParser would hand to libm, and what would assign: refused by sign, for they are operators.
-  if (text.find('^') != std::string::npos) throw ExpressionError(msg("powers (^) are not available: multiply instead"));
+  // What muParser would hand to libm, and what would assign: refused by sign, for they are
+  // operators.
+  if (text.find('^') != std::string::npos)
+    throw ExpressionError(msg("powers (^) are not available: multiply instead"));
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool compares = (i > 0 && (text[i - 1] == '=' || text[i - 1] == '<' || text[i - 1] == '>' || text[i - 1] == '!')) ||
+    const bool compares = (i > 0 && (text[i - 1] == '=' || text[i - 1] == '<' ||
+                                     text[i - 1] == '>' || text[i - 1] == '!')) ||
                           (i + 1 < text.size() && text[i + 1] == '=');
-    if (text[i] == '=' && !compares) throw ExpressionError(msg("a single = assigns: compare with =="));
+    if (text[i] == '=' && !compares)
+      throw ExpressionError(msg("a single = assigns: compare with =="));
   }
   parser.ClearFun();
   parser.ClearConst();
@@ -39,7 +43,8 @@ struct Expression::Impl {
   mu::Parser parser;
 };
 
-Expression::Expression(const std::string& text, const std::vector<std::string>& names, std::vector<double>& values)
+Expression::Expression(const std::string& text, const std::vector<std::string>& names,
+                       std::vector<double>& values)
     : impl_(std::make_unique<Impl>()) {
   try {
     for (std::size_t i = 0; i < names.size(); ++i) impl_->parser.DefineVar(names[i], &values[i]);
@@ -67,7 +72,8 @@ std::vector<std::string> functions_in_expression(const std::string& text) {
   std::vector<std::string> names;
   std::string name;
   for (const char c : text) {
-    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    const bool letter =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
     if (letter) {
       name += c;
     } else if (c == '(' && !name.empty()) {
@@ -85,7 +91,8 @@ std::vector<std::string> names_in_expression(const std::string& text) {
     mu::Parser parser;
     prepare(parser, text);
     std::vector<std::string> names;
-    for (const auto& [name, address] : parser.GetUsedVar()) names.push_back(name);  // a std::map: sorted
+    for (const auto& [name, address] : parser.GetUsedVar())
+      names.push_back(name);  // a std::map: sorted
     return names;
   } catch (const mu::Parser::exception_type& e) {
     complain(e);

@@ -1,4 +1,5 @@
-// How far the values of live quantities and measures can run in one exam. All begin at 0, so the upper end is all there is to say.
+// How far the values of live quantities and measures can run in one exam. All begin at 0, so the
+// upper end is all there is to say.
 #pragma once
 
 #include <map>
@@ -8,7 +9,8 @@ namespace cavum::scenarios {
 
 inline constexpr double k_no_end = 1e300;
 
-/// The upper ends, of one tooth, its zones and its scenario. Volumes are of all that could be removed.
+/// The upper ends, of one tooth, its zones and its scenario. Volumes are of all that could be
+/// removed.
 struct ExamExtent {
   double limit_s = 0.0;       ///< of the exam, with what is granted
   double step_s = 0.0;        ///< of the step in question
@@ -19,8 +21,9 @@ struct ExamExtent {
   double steps = 0.0;
   double fault = 0.0;  ///< 1 when a tissue is one, else 0
   double rpm = 0.0;
-  double last_bur = 0.0;                     ///< of the tray, the first is 0
-  std::map<std::string, double> tissue_mm3;  ///< by its name; one that is not in it is none of this tooth
+  double last_bur = 0.0;  ///< of the tray, the first is 0
+  std::map<std::string, double>
+      tissue_mm3;  ///< by its name; one that is not in it is none of this tooth
   // the same in every exam
   double percent = 100.0, one = 1.0, no_end = k_no_end;
 };

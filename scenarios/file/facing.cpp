@@ -9,21 +9,22 @@ namespace {
 const char* name_of_wall(std::size_t wall, Facing facing) {
   switch (static_cast<Wall>(wall)) {
     case Wall::mesial:
-      return said("the mesial wall");
+      return noop("the mesial wall");
     case Wall::distal:
-      return said("the distal wall");
+      return noop("the distal wall");
     case Wall::buccal:
-      if (facing.lateral()) return facing.anterior ? said("the incisal wall") : said("the occlusal wall");
-      return facing.anterior ? said("the labial wall") : said("the buccal wall");
+      if (facing.lateral())
+        return facing.anterior ? noop("the incisal wall") : noop("the occlusal wall");
+      return facing.anterior ? noop("the labial wall") : noop("the buccal wall");
     case Wall::lingual:
-      return facing.lateral() ? said("the gingival wall") : said("the lingual wall");
+      return facing.lateral() ? noop("the gingival wall") : noop("the lingual wall");
     case Wall::floor:
-      return facing.lateral() ? said("the axial wall") : said("the floor");
+      return facing.lateral() ? noop("the axial wall") : noop("the floor");
     case Wall::opening:
       break;
   }
-  if (facing.lateral()) return said("the opening");
-  return facing.anterior ? said("the incisal side") : said("the occlusal side");
+  if (facing.lateral()) return noop("the opening");
+  return facing.anterior ? noop("the incisal side") : noop("the occlusal side");
 }
 
 }  // namespace

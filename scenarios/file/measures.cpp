@@ -12,7 +12,8 @@
 namespace cavum::scenarios {
 namespace {
 
-/// A figure of walls: of one, of the floor, of the four side walls together, of all together; null: not asked of those.
+/// A figure of walls: of one, of the floor, of the four side walls together, of all together; null:
+/// not asked of those.
 struct FigureWords {
   WallFigure figure;
   const char* wall;
@@ -22,36 +23,39 @@ struct FigureWords {
   Better better = Better::less;
   const Most* most = nullptr;
 };
-constexpr FigureWords k_figures[] = {{.figure = WallFigure::mean,
-                                      .wall = "mean deviation of the wall, + = overcut",
-                                      .floor = "mean deviation of the floor, + = too deep",
-                                      .better = Better::by_task},
-                                     {.figure = WallFigure::p95,
-                                      .wall = "95th percentile of the wall's deviation",
-                                      .floor = "95th percentile of the floor's deviation",
-                                      .side_walls = "largest 95th percentile of the four side walls",
-                                      .better = Better::by_task},
-                                     {.figure = WallFigure::max_over,
-                                      .wall = "largest overcut of the wall",
-                                      .floor = "largest excess depth",
-                                      .side_walls = "largest overcut of the four side walls",
-                                      .all = "largest overcut of all walls and the floor",
-                                      .most = &most::no_end},
-                                     {.figure = WallFigure::max_under,
-                                      .wall = "largest thickness left standing",
-                                      .floor = "largest thickness left standing",
-                                      .side_walls = "largest thickness left standing at the four side walls",
-                                      .all = "largest thickness left standing at all walls and the floor",
-                                      .most = &most::no_end}};
+constexpr FigureWords k_figures[] = {
+    {.figure = WallFigure::mean,
+     .wall = "mean deviation of the wall, + = overcut",
+     .floor = "mean deviation of the floor, + = too deep",
+     .better = Better::by_task},
+    {.figure = WallFigure::p95,
+     .wall = "95th percentile of the wall's deviation",
+     .floor = "95th percentile of the floor's deviation",
+     .side_walls = "largest 95th percentile of the four side walls",
+     .better = Better::by_task},
+    {.figure = WallFigure::max_over,
+     .wall = "largest overcut of the wall",
+     .floor = "largest excess depth",
+     .side_walls = "largest overcut of the four side walls",
+     .all = "largest overcut of all walls and the floor",
+     .most = &most::no_end},
+    {.figure = WallFigure::max_under,
+     .wall = "largest thickness left standing",
+     .floor = "largest thickness left standing",
+     .side_walls = "largest thickness left standing at the four side walls",
+     .all = "largest thickness left standing at all walls and the floor",
+     .most = &most::no_end}};
 
 /// Thickness left is of the target; all other figures of a wall, of what is cut beyond it.
 unsigned wall_counts(WallFigure figure, std::size_t first, std::size_t walls) {
   if (figure == WallFigure::max_under) return k_counts_target;
   const auto floor = static_cast<std::size_t>(Wall::floor);
-  return (first < floor ? unsigned{k_counts_sides} : 0u) | (first + walls > floor ? unsigned{k_counts_bottom} : 0u);
+  return (first < floor ? unsigned{k_counts_sides} : 0u) |
+         (first + walls > floor ? unsigned{k_counts_bottom} : 0u);
 }
 
-Measure wall_measure(const std::string& walls_name, const FigureWords& f, const char* words, std::size_t first, std::size_t walls) {
+Measure wall_measure(const std::string& walls_name, const FigureWords& f, const char* words,
+                     std::size_t first, std::size_t walls) {
   return {.name = fmt::format("{}_{}", walls_name, wall_figure_name(f.figure)),
           .words = words,
           .better = f.better,
@@ -68,9 +72,12 @@ std::vector<Measure> wall_measures() {
   std::vector<Measure> out;
   for (std::size_t w = 0; w < k_walls; ++w)
     for (const auto& f : k_figures)
-      out.push_back(wall_measure(wall_name(static_cast<Wall>(w)), f, w == static_cast<std::size_t>(Wall::floor) ? f.floor : f.wall, w, 1));
+      out.push_back(wall_measure(wall_name(static_cast<Wall>(w)), f,
+                                 w == static_cast<std::size_t>(Wall::floor) ? f.floor : f.wall, w,
+                                 1));
   for (const auto& f : k_figures)
-    if (f.side_walls != nullptr) out.push_back(wall_measure("side_walls", f, f.side_walls, 0, k_side_walls));
+    if (f.side_walls != nullptr)
+      out.push_back(wall_measure("side_walls", f, f.side_walls, 0, k_side_walls));
   for (const auto& f : k_figures)
     if (f.all != nullptr) out.push_back(wall_measure("walls", f, f.all, 0, k_walls));
   return out;
@@ -82,13 +89,19 @@ std::vector<Measure> tissue_measures() {
   return out;
 }
 
-constexpr unsigned k_counts_removed = k_counts_target | k_counts_sides | k_counts_bottom | k_counts_outside | k_counts_protected;
+constexpr unsigned k_counts_removed =
+    k_counts_target | k_counts_sides | k_counts_bottom | k_counts_outside | k_counts_protected;
 
 /// That a name ends with.
 const char* unit_of(std::string_view name) {
   using namespace std::string_view_literals;
-  for (const auto& [end, unit] :
-       {std::pair{"_mm3"sv, "mm3"}, {"_mm2"sv, "mm2"}, {"_mm"sv, "mm"}, {"_percent"sv, "%"}, {"_deg"sv, "deg"}, {"_s"sv, "s"}, {"_n"sv, "N"}})
+  for (const auto& [end, unit] : {std::pair{"_mm3"sv, "mm3"},
+                                  {"_mm2"sv, "mm2"},
+                                  {"_mm"sv, "mm"},
+                                  {"_percent"sv, "%"},
+                                  {"_deg"sv, "deg"},
+                                  {"_s"sv, "s"},
+                                  {"_n"sv, "N"}})
     if (name.ends_with(end)) return unit;
   return "";
 }
@@ -96,12 +109,14 @@ const char* unit_of(std::string_view name) {
 std::vector<Measure> all_measures() {
   std::vector<Measure> all;
   const auto add = [&](Measure m) {
-    if (std::any_of(all.begin(), all.end(), [&](const Measure& other) { return other.name == m.name; }))
+    if (std::any_of(all.begin(), all.end(),
+                    [&](const Measure& other) { return other.name == m.name; }))
       throw std::logic_error("measures: two are called " + m.name);
     if (m.unit == nullptr) m.unit = unit_of(m.name);
     all.push_back(std::move(m));
   };
-#define MEASURE(NAME, WORDS, WHAT, VALUE, REASON, MOMENTS, PLACE) add({.name = NAME, .words = WORDS IN_ROW WHAT});
+#define MEASURE(NAME, WORDS, WHAT, VALUE, REASON, MOMENTS, PLACE) \
+  add({.name = NAME, .words = WORDS IN_ROW WHAT});
 #define FAMILY(KEY, MEMBERS, VALUE, REASON, MOMENTS) std::ranges::for_each(MEMBERS, add);
 #include "scenarios/file/measures_table.inc"
   return all;
@@ -161,7 +176,8 @@ std::optional<Measure> find_measure(const std::string& name) {
 
 Measure known_measure(const std::string& name) {
   if (auto m = find_measure(name)) return *m;
-  throw Error(msg("rubric"), msg("there is no measure '{}'", name), msg("use one that `cavum scenario check` knows"));
+  throw Error(msg("rubric"), msg("there is no measure '{}'", name),
+              msg("use one that `cavum scenario check` knows"));
 }
 
 std::optional<double> most_of(const Measure& measure, const ExamExtent& exam) {

@@ -1,6 +1,8 @@
-// The measures that a criterion of a rubric may use: what is known of them here, of the rows of measures_table.inc. Parser, checks, advice, marking,
-// `grade --why`, the JSON of a result and docs/measures.md are made of the same rows. What a row says to a room above is found there by the
-// measure's key: value, bound and reason in grading/result/measure_marking.h, moments in grading/feedback/loss_finder.h.
+// The measures that a criterion of a rubric may use: what is known of them here, of the rows of
+// measures_table.inc. Parser, checks, advice, marking, `grade --why`, the JSON of a result and
+// docs/measures.md are made of the same rows. What a row says to a room above is found there by the
+// measure's key: value, bound and reason in grading/result/measure_marking.h, moments in
+// grading/feedback/loss_finder.h.
 #pragma once
 
 #include <optional>
@@ -16,7 +18,8 @@ namespace cavum::scenarios {
 
 /// Which of two values is better.
 enum class Better { less, more, by_task };
-/// Work: an untouched tooth does badly in it of itself. Care: it does best in it, so care counts only for as much as was done.
+/// Work: an untouched tooth does badly in it of itself. Care: it does best in it, so care counts
+/// only for as much as was done.
 enum class Judges { care, work };
 /// What an exam must have for a measure to say anything.
 enum class Needs {
@@ -35,7 +38,8 @@ enum class Needs {
   gum
 };
 
-/// What a measure counts, as bits: two criteria with one in common charge the same tissue, or the same ticks, twice.
+/// What a measure counts, as bits: two criteria with one in common charge the same tissue, or the
+/// same ticks, twice.
 enum Counts : unsigned {
   k_counts_nothing = 0,
   k_counts_target = 1,       ///< what is left of the target
@@ -55,7 +59,8 @@ enum Counts : unsigned {
 
 /// What is said of a wall.
 enum class WallFigure { mean, p95, max_over, max_under };
-inline constexpr WallFigure k_wall_figures[] = {WallFigure::mean, WallFigure::p95, WallFigure::max_over, WallFigure::max_under};
+inline constexpr WallFigure k_wall_figures[] = {WallFigure::mean, WallFigure::p95,
+                                                WallFigure::max_over, WallFigure::max_under};
 /// "mean_mm": how it ends a measure's name, and its name in the JSON.
 [[nodiscard]] const char* wall_figure_name(WallFigure figure) noexcept;
 
@@ -70,7 +75,8 @@ enum class Reads : std::uint8_t { figure, count, yes_no };
 struct Measure {
   std::string name;
   std::string words;
-  const char* unit = nullptr;  ///< left out: what its name ends with; of measures() and find_measure never null
+  const char* unit =
+      nullptr;  ///< left out: what its name ends with; of measures() and find_measure never null
   Better better = Better::less;
   Judges judges = Judges::care;
   const Most* most = nullptr;  ///< where its values end, from 0 on; null: nothing is known of that
@@ -79,9 +85,10 @@ struct Measure {
   bool counts_faults = false;          ///< it answers whether something was opened that must not be
   bool counts_protected = false;       ///< it counts what is removed of what is protected
   bool of_floor = false;               ///< it speaks of the cavity's floor alone
-  bool of_exam = false;                ///< it speaks of how the work was done: a preparation alone, without its recording, says nothing of it
+  bool of_exam = false;  ///< it speaks of how the work was done: a preparation alone, without its
+                         ///< recording, says nothing of it
   Reads reads = Reads::figure;
-  const char *yes = said("yes"), *no = said("no");  ///< how 1 and 0 of a yes_no read
+  const char *yes = noop("yes"), *no = noop("no");  ///< how 1 and 0 of a yes_no read
 
   // Members of a family
   const char* family = nullptr;           ///< its key; null: a measure by itself
@@ -93,7 +100,8 @@ struct Measure {
   [[nodiscard]] std::string key() const { return family != nullptr ? family : name; }
 };
 
-/// All of them, of tissues those of `standard_tissues()`. Throws std::logic_error when two have one name.
+/// All of them, of tissues those of `standard_tissues()`. Throws std::logic_error when two have one
+/// name.
 [[nodiscard]] const std::vector<Measure>& measures();
 /// A measure by its name, touched_NAME_mm3 of any tissue; none when there is none of that name.
 [[nodiscard]] std::optional<Measure> find_measure(const std::string& name);

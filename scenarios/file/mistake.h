@@ -1,4 +1,5 @@
-// What can be wrong, or unwise, in a scenario or rubric file, for whoever has to tell one from another.
+// What can be wrong, or unwise, in a scenario or rubric file, for whoever has to tell one from
+// another.
 #pragma once
 
 #include "engine/base/named_enum.h"

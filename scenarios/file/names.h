@@ -1,5 +1,5 @@
-// Names of the live quantities that an instructor may use in conditions. One record each, so that parser, runner and advice cannot disagree.
-// The measures of rubrics are in measures.h.
+// Names of the live quantities that an instructor may use in conditions. One record each, so that
+// parser, runner and advice cannot disagree. The measures of rubrics are in measures.h.
 #pragma once
 
 #include <array>
@@ -23,7 +23,8 @@ inline constexpr std::array<LiveQuantity, 22> k_live_quantities{{
     {"removed_mm3", "mm3", "all tissue removed", &most::tooth},
     {"leeway_mm3", "mm3", "removed in the leeway", &most::leeway},
     {"container_mm3", "mm3", "removed in the container (damage)", &most::container},
-    {"outside_mm3", "mm3", "removed outside target, leeway and container, what is protected included", &most::tooth},
+    {"outside_mm3", "mm3",
+     "removed outside target, leeway and container, what is protected included", &most::tooth},
     {"protected_mm3", "mm3", "removed of what is protected, wherever it lies", &most::guarded},
     {"depth_mm", "mm", "deepest the tip has been below the occlusal opening"},
     {"x_mm", "mm", "tip, mesial"},

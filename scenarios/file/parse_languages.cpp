@@ -9,8 +9,9 @@ namespace {
 
 /// Translations of texts that a list has by id, or by name: a table `key` in the language's table.
 template <class List, class Id, class Text>
-void read_list(CheckedTable& language, const std::string& name, const char* key, const List& list, const Id& id, const Text& text,
-               std::map<std::string, std::string>& out, ProblemList& problems) {
+void read_list(CheckedTable& language, const std::string& name, const char* key, const List& list,
+               const Id& id, const Text& text, std::map<std::string, std::string>& out,
+               ProblemList& problems) {
   const toml::table* table = language.table(key);
   if (table == nullptr) return;
   CheckedTable t(*table, fmt::format("{}.{}]", name.substr(0, name.size() - 1), key), problems);
@@ -28,10 +29,13 @@ Translations read_languages(CheckedTable& file, const Scenario& s, ProblemList& 
   for (const auto& [key, node] : *languages) {
     const std::string language(key.str()), name = fmt::format("[languages.{}]", language);
     const bool plain =
-        !language.empty() && language.size() <= 3 && std::all_of(language.begin(), language.end(), [](char c) { return c >= 'a' && c <= 'z'; });
+        !language.empty() && language.size() <= 3 &&
+        std::all_of(language.begin(), language.end(), [](char c) { return c >= 'a' && c <= 'z'; });
     if (!plain || language == "en" || node.as_table() == nullptr || all.size() >= k_max_languages) {
-      problems.add(node.source(), msg("{} is no table of another language", name),
-                   msg("write for example [languages.de]; the texts of the scenario itself are English"), Mistake::unknown_language);
+      problems.add(
+          node.source(), msg("{} is no table of another language", name),
+          msg("write for example [languages.de]; the texts of the scenario itself are English"),
+          Mistake::unknown_language);
       continue;
     }
     CheckedTable t(*node.as_table(), name, problems);
@@ -40,9 +44,11 @@ Translations read_languages(CheckedTable& file, const Scenario& s, ProblemList& 
     if (t.has("description")) out[s.description] = t.text("description", "", true);
     const auto id = [](const auto& item) { return item.id; };
     read_list(
-        t, name, "steps", s.steps, id, [](const StepSpec& step) { return step.instruction; }, out, problems);
+        t, name, "steps", s.steps, id, [](const StepSpec& step) { return step.instruction; }, out,
+        problems);
     read_list(
-        t, name, "criteria", s.rubric.criteria, id, [](const CriterionSpec& c) { return c.title; }, out, problems);
+        t, name, "criteria", s.rubric.criteria, id, [](const CriterionSpec& c) { return c.title; },
+        out, problems);
     const auto band = [](const BandSpec& b) { return b.name; };
     read_list(t, name, "bands", s.rubric.bands, band, band, out, problems);
     t.finish();

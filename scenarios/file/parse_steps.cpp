@@ -20,12 +20,14 @@ void check_condition(CheckedTable& t, const char* key, const std::string& text) 
   for (const Tissue& tissue : standard_tissues()) names.push_back("touched_" + tissue.name);
   constexpr std::size_t k_longest = 2000;
   if (text.size() > k_longest) {
-    t.problem(key, msg("'{}' has {} characters", key, text.size()), msg("write at most 2000"), Mistake::too_large);
+    t.problem(key, msg("'{}' has {} characters", key, text.size()), msg("write at most 2000"),
+              Mistake::too_large);
     return;
   }
   for (const auto& function : functions_in_expression(text))
     if (function != "min" && function != "max" && function != "abs") {
-      t.problem(key, msg("'{}' uses the unknown function '{}'", key, function), msg("use min, max or abs"), Mistake::condition);
+      t.problem(key, msg("'{}' uses the unknown function '{}'", key, function),
+                msg("use min, max or abs"), Mistake::condition);
       return;
     }
   try {
@@ -33,7 +35,8 @@ void check_condition(CheckedTable& t, const char* key, const std::string& text) 
     for (const auto& used : names_in_expression(text)) {
       if (std::find(names.begin(), names.end(), used) != names.end()) continue;
       if (used.rfind("touched_", 0) != 0)
-        t.problem(key, msg("'{}' uses the unknown quantity '{}'", key, used), suggestion(used, names), Mistake::unknown_quantity);
+        t.problem(key, msg("'{}' uses the unknown quantity '{}'", key, used),
+                  suggestion(used, names), Mistake::unknown_quantity);
       known.push_back(used);
     }
     std::vector<double> values(known.size(), 0.0);
@@ -42,10 +45,12 @@ void check_condition(CheckedTable& t, const char* key, const std::string& text) 
     if (const auto fault = condition_fault(text))
       t.problem(key, msg("'{}' {}", key, fault->what), fault->what_to_do, Mistake::condition);
     else if (!is_condition(text))
-      t.problem(key, msg("'{}' is a number, not a condition", key), msg("compare it with something, for example \"target_removed_percent >= 90\""),
+      t.problem(key, msg("'{}' is a number, not a condition", key),
+                msg("compare it with something, for example \"target_removed_percent >= 90\""),
                 Mistake::condition);
   } catch (const ExpressionError& e) {
-    t.problem(key, msg("'{}' cannot be read ({})", key, e.problem), msg("write for example \"target_removed_percent >= 90 && depth_mm < 5\""),
+    t.problem(key, msg("'{}' cannot be read ({})", key, e.problem),
+              msg("write for example \"target_removed_percent >= 90 && depth_mm < 5\""),
               Mistake::condition);
   }
 }
@@ -53,13 +58,16 @@ void check_condition(CheckedTable& t, const char* key, const std::string& text) 
 }  // namespace
 
 bool good_id(const std::string& id) {
-  return !id.empty() &&
-         std::all_of(id.begin(), id.end(), [](unsigned char c) { return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '_' || c == '-'; });
+  return !id.empty() && std::all_of(id.begin(), id.end(), [](unsigned char c) {
+    return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '_' || c == '-';
+  });
 }
 
 std::string read_id(CheckedTable& t, const std::string& fallback) {
   std::string id = t.text("id", fallback, true);
-  if (!id.empty() && !good_id(id)) t.problem("id", msg("'id' is \"{}\"", id), msg("use small letters, digits, _ and -"), Mistake::bad_name);
+  if (!id.empty() && !good_id(id))
+    t.problem("id", msg("'id' is \"{}\"", id), msg("use small letters, digits, _ and -"),
+              Mistake::bad_name);
   return id;
 }
 
@@ -85,7 +93,9 @@ std::vector<StepSpec> read_steps(CheckedTable& scenario, Places& places, Problem
     s.failure_ends_exam = t.truth("failure_ends_exam", false);
     t.finish();
     for (const auto& other : steps)
-      if (other.id == s.id && !s.id.empty()) t.problem("id", msg("two steps are called '{}'", s.id), msg("give each its own id"), Mistake::duplicate);
+      if (other.id == s.id && !s.id.empty())
+        t.problem("id", msg("two steps are called '{}'", s.id), msg("give each its own id"),
+                  Mistake::duplicate);
     steps.push_back(std::move(s));
   }
   return steps;
@@ -95,7 +105,8 @@ void check_pause_button(const Scenario& s, ProblemList& problems) {
   if (s.pauses.count == 0) return;
   const std::string button = fmt::format("button_{}", s.pauses.button);
   for (std::size_t i = 0; i < s.steps.size(); ++i)
-    for (const auto& [key, text] : {std::pair("complete_when", s.steps[i].complete_when), std::pair("fail_when", s.steps[i].fail_when)}) {
+    for (const auto& [key, text] : {std::pair("complete_when", s.steps[i].complete_when),
+                                    std::pair("fail_when", s.steps[i].fail_when)}) {
       std::vector<std::string> used;
       try {
         if (!text.empty()) used = names_in_expression(text);
@@ -104,7 +115,8 @@ void check_pause_button(const Scenario& s, ProblemList& problems) {
       }
       if (std::find(used.begin(), used.end(), button) == used.end()) continue;
       const Place at = s.places.at(fmt::format("steps/{}/{}", i, key));
-      problems.add(at, msg("'{}' asks for {}, which begins and ends pauses", key, button), msg("use the other button, or set 'button' of [pauses]"),
+      problems.add(at, msg("'{}' asks for {}, which begins and ends pauses", key, button),
+                   msg("use the other button, or set 'button' of [pauses]"),
                    Mistake::contradictory);
     }
 }

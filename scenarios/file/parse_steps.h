@@ -1,4 +1,5 @@
-// Reads the steps of a scenario, with their conditions; and ids, which steps and criteria have alike.
+// Reads the steps of a scenario, with their conditions; and ids, which steps and criteria have
+// alike.
 #pragma once
 
 #include <map>
@@ -19,7 +20,8 @@ using Places = std::map<std::string, Place>;
 [[nodiscard]] std::string read_id(CheckedTable& t, const std::string& fallback);
 
 /// All [[steps]]; mistakes go to `problems`.
-[[nodiscard]] std::vector<StepSpec> read_steps(CheckedTable& scenario, Places& places, ProblemList& problems);
+[[nodiscard]] std::vector<StepSpec> read_steps(CheckedTable& scenario, Places& places,
+                                               ProblemList& problems);
 /// The button of pauses cannot also be asked for in a condition.
 void check_pause_button(const Scenario& scenario, ProblemList& problems);
 

@@ -6,6 +6,7 @@
 
 namespace cavum::scenarios {
 
-[[nodiscard]] ZoneSpec read_zones(const toml::table& table, std::map<std::string, Place>& places, ProblemList& problems);
+[[nodiscard]] ZoneSpec read_zones(const toml::table& table, std::map<std::string, Place>& places,
+                                  ProblemList& problems);
 
 }  // namespace cavum::scenarios

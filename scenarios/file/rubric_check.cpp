@@ -4,14 +4,15 @@
 #include <stdexcept>
 
 #include "engine/base/text.h"
-#include "engine/tooth/beside.h"
+#include "engine/tooth/adjacent.h"
 #include "scenarios/file/checked_toml.h"
 #include "scenarios/file/measures.h"
 
 namespace cavum::scenarios {
 namespace {
 
-Problem problem_of(const RubricSpec& rubric, Place at, const Message& what, const Message& what_to_do, Mistake mistake) {
+Problem problem_of(const RubricSpec& rubric, Place at, const Message& what,
+                   const Message& what_to_do, Mistake mistake) {
   return {{rubric.path, at.line, at.column}, what, what_to_do, false, mistake};
 }
 
@@ -22,7 +23,8 @@ bool any_of(const TissueSet& set) {
 /// What a measure needs and this exam lacks; empty when nothing.
 Message lacking(Needs needs, const Scenario& s, const Tooth& tooth) {
   const MarginSpec &leeway = s.zones.leeway, &container = s.zones.container;
-  const bool sides = container.sides_mm > leeway.sides_mm, bottom = container.bottom_mm > leeway.bottom_mm;
+  const bool sides = container.sides_mm > leeway.sides_mm,
+             bottom = container.bottom_mm > leeway.bottom_mm;
   switch (needs) {
     case Needs::nothing:
       return {};
@@ -47,7 +49,9 @@ Message lacking(Needs needs, const Scenario& s, const Tooth& tooth) {
     case Needs::pulp:
       return any_of(tissues_of(tooth, TissueKind::pulp)) ? Message() : msg("the tooth has no pulp");
     case Needs::neighbour:
-      return any_of(tissues_of(tooth, TissueKind::neighbour)) ? Message() : msg("no tooth stands beside this one");
+      return any_of(tissues_of(tooth, TissueKind::neighbour))
+                 ? Message()
+                 : msg("no tooth stands beside this one");
     case Needs::gum:
       return any_of(tissues_of(tooth, TissueKind::gum)) ? Message() : msg("the tooth has no gum");
   }
@@ -56,18 +60,22 @@ Message lacking(Needs needs, const Scenario& s, const Tooth& tooth) {
 
 }  // namespace
 
-std::vector<Problem> not_in_this_exam(const RubricSpec& rubric, const Scenario& scenario, const Tooth& tooth) {
+std::vector<Problem> not_in_this_exam(const RubricSpec& rubric, const Scenario& scenario,
+                                      const Tooth& tooth) {
   std::vector<std::string> known;
   for (const auto& t : tooth.tissues) known.push_back(tissue_measure(t.name).name);
   std::vector<Problem> problems;
   for (const auto& c : rubric.criteria) {
     const Measure measure = known_measure(c.metric);
     if (!measure.tissue.empty() && std::find(known.begin(), known.end(), c.metric) == known.end())
-      problems.push_back(problem_of(rubric, c.metric_at, msg("'{}' measures no tissue of this tooth", c.metric), suggestion(c.metric, known),
-                                    Mistake::unknown_tissue));
+      problems.push_back(problem_of(rubric, c.metric_at,
+                                    msg("'{}' measures no tissue of this tooth", c.metric),
+                                    suggestion(c.metric, known), Mistake::unknown_tissue));
     if (const Message what = lacking(measure.needs, scenario, tooth); !what.empty())
-      problems.push_back(problem_of(rubric, c.metric_at, msg("'{}' measures nothing in this exam: {}", c.metric, what),
-                                    msg("take the criterion out, or choose a measure of what there is"), Mistake::unknown_measure));
+      problems.push_back(problem_of(
+          rubric, c.metric_at, msg("'{}' measures nothing in this exam: {}", c.metric, what),
+          msg("take the criterion out, or choose a measure of what there is"),
+          Mistake::unknown_measure));
   }
   return problems;
 }
@@ -76,12 +84,16 @@ std::vector<Problem> turned_round(const RubricSpec& rubric) {
   std::vector<Problem> problems;
   for (const auto& c : rubric.criteria) {
     const Better better = known_measure(c.metric).better;
-    if (better == Better::by_task || c.full == c.zero || (c.full > c.zero) == (better == Better::more)) continue;
+    if (better == Better::by_task || c.full == c.zero ||
+        (c.full > c.zero) == (better == Better::more))
+      continue;
     problems.push_back(problem_of(
         rubric, c.zero_at,
         better == Better::more
-            ? msg("the criterion gives full marks at {} and none at {}, but more of '{}' is better", as_number(c.full), as_number(c.zero), c.metric)
-            : msg("the criterion gives full marks at {} and none at {}, but less of '{}' is better", as_number(c.full), as_number(c.zero), c.metric),
+            ? msg("the criterion gives full marks at {} and none at {}, but more of '{}' is better",
+                  as_number(c.full), as_number(c.zero), c.metric)
+            : msg("the criterion gives full marks at {} and none at {}, but less of '{}' is better",
+                  as_number(c.full), as_number(c.zero), c.metric),
         msg("exchange 'full' and 'zero'"), Mistake::contradictory));
     problems.back().warning = true;
   }
@@ -96,13 +108,18 @@ std::vector<Problem> charged_twice(const RubricSpec& rubric) {
   for (std::size_t i = 0; i < rubric.criteria.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const CriterionSpec &first = rubric.criteria[j], &second = rubric.criteria[i];
-      if (!(first.points > 0) || !(second.points > 0) || names(first, second.id) || names(second, first.id)) continue;
-      const unsigned both = known_measure(first.metric).counts & known_measure(second.metric).counts;
+      if (!(first.points > 0) || !(second.points > 0) || names(first, second.id) ||
+          names(second, first.id))
+        continue;
+      const unsigned both =
+          known_measure(first.metric).counts & known_measure(second.metric).counts;
       if (both == 0) continue;
       problems.push_back(problem_of(
           rubric, second.metric_at,
-          msg("'{}' charges what '{}' charges, too: {} and {} both count {}", second.id, first.id, second.metric, first.metric, counts_text(both)),
-          msg("take one of them out, or say that it is meant: shares_with = [\"{}\"]", first.id), Mistake::contradictory));
+          msg("'{}' charges what '{}' charges, too: {} and {} both count {}", second.id, first.id,
+              second.metric, first.metric, counts_text(both)),
+          msg("take one of them out, or say that it is meant: shares_with = [\"{}\"]", first.id),
+          Mistake::contradictory));
       problems.back().warning = true;
     }
   return problems;

@@ -13,7 +13,8 @@ enum class Wall : std::uint8_t { mesial, distal, buccal, lingual, floor, opening
 inline constexpr std::size_t k_walls = 5;
 inline constexpr std::size_t k_side_walls = 4;  ///< the first of them; the floor comes after
 [[nodiscard]] constexpr const char* wall_name(Wall wall) noexcept {
-  constexpr const char* k_names[] = {said("mesial"), said("distal"), said("buccal"), said("lingual"), said("floor"), said("opening")};
+  constexpr const char* k_names[] = {noop("mesial"),  noop("distal"), noop("buccal"),
+                                     noop("lingual"), noop("floor"),  noop("opening")};
   return k_names[static_cast<std::size_t>(wall)];
 }
 

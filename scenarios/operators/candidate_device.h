@@ -1,5 +1,5 @@
-// A simulated candidate as a device of the real-time servo: the built-in operator and its hand on a simulated Omni, acting on what each step
-// shows and feels, as it does in an exam without a clock.
+// A simulated candidate as a device of the real-time servo: the built-in operator and its hand on a
+// simulated Omni, acting on what each step shows and feels, as it does in an exam without a clock.
 #pragma once
 
 #include <atomic>
@@ -15,10 +15,13 @@ class CandidateDevice final : public ServoDevice {
   CandidateDevice(Candidate candidate, const OmniModel& omni);
 
   [[nodiscard]] Vec3 start_mm() const noexcept { return start_mm_; }
-  /// The operator has nothing left to do and has rested a moment: the exam may be ended. Any thread.
+  /// The operator has nothing left to do and has rested a moment: the exam may be ended. Any
+  /// thread.
   [[nodiscard]] bool done() const noexcept { return done_.load(std::memory_order_acquire); }
   /// Done so far, 0..1. Any thread.
-  [[nodiscard]] double progress() const noexcept { return progress_.load(std::memory_order_relaxed); }
+  [[nodiscard]] double progress() const noexcept {
+    return progress_.load(std::memory_order_relaxed);
+  }
 
   [[nodiscard]] DeviceReading read(double elapsed_s) override;
   void show(const TickOutput& output) noexcept override { seen_ = output; }
@@ -37,7 +40,10 @@ class CandidateDevice final : public ServoDevice {
   std::atomic<double> progress_{0.0};
 };
 
-/// Operator of this skill (see make_skill) for an exam. Throws Error when no bur of its tray fits into the target.
-[[nodiscard]] std::unique_ptr<CandidateDevice> make_candidate_device(const ExamSetup& setup, const std::string& skill, std::uint64_t seed);
+/// Operator of this skill (see make_skill) for an exam. Throws Error when no bur of its tray fits
+/// into the target.
+[[nodiscard]] std::unique_ptr<CandidateDevice> make_candidate_device(const ExamSetup& setup,
+                                                                     const std::string& skill,
+                                                                     std::uint64_t seed);
 
 }  // namespace cavum::scenarios

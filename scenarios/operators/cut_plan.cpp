@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/tooth/beside.h"
+#include "engine/tooth/adjacent.h"
 #include "engine/tooth/distance_transform.h"
 
 namespace cavum::scenarios {
@@ -22,7 +22,9 @@ struct Region {
   [[nodiscard]] std::size_t index(int x, int y) const noexcept {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x);
   }
-  [[nodiscard]] bool has(int x, int y) const noexcept { return x >= 0 && y >= 0 && x < nx && y < ny && inside[index(x, y)] != 0; }
+  [[nodiscard]] bool has(int x, int y) const noexcept {
+    return x >= 0 && y >= 0 && x < nx && y < ny && inside[index(x, y)] != 0;
+  }
 };
 
 Region region_of(int nx, int ny, const std::vector<std::uint8_t>& inside) {
@@ -32,11 +34,13 @@ Region region_of(int nx, int ny, const std::vector<std::uint8_t>& inside) {
   std::vector<std::uint8_t> outside(static_cast<std::size_t>(px) * static_cast<std::size_t>(py), 1);
   for (int y = 0; y < ny; ++y)
     for (int x = 0; x < nx; ++x)
-      outside[static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(px) + static_cast<std::size_t>(x + 1)] = !r.has(x, y);
+      outside[static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(px) +
+              static_cast<std::size_t>(x + 1)] = !r.has(x, y);
   const auto nearest = nearest_seed({px, py, 1}, outside);
   for (int y = 0; y < ny; ++y)
     for (int x = 0; x < nx; ++x) {
-      const int n = nearest[static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(px) + static_cast<std::size_t>(x + 1)];
+      const int n = nearest[static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(px) +
+                            static_cast<std::size_t>(x + 1)];
       const double dx = n % px - (x + 1), dy = n / px - (y + 1);
       r.depth[r.index(x, y)] = std::sqrt(dx * dx + dy * dy) - 0.5;
     }
@@ -48,9 +52,11 @@ struct Column {
   friend bool operator==(const Column&, const Column&) = default;
 };
 
-/// Outer border of the component that holds `start` (its lowest, leftmost column), by Moore's neighbour tracing.
+/// Outer border of the component that holds `start` (its lowest, leftmost column), by Moore's
+/// neighbour tracing.
 std::vector<Column> trace(const Region& r, Column start) {
-  static constexpr Column k_around[8] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
+  static constexpr Column k_around[8] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
+                                         {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
   std::vector<Column> loop{start};
   int from = 4;  // came from the left
   Column at = start;
@@ -91,10 +97,11 @@ std::vector<Column> take_component(Region& r, Column start) {
   return taken;
 }
 
-/// Closed loops that cover a region, innermost first. Where an innermost loop runs around a core of more than the spacing, another goes through the
-/// core's middle: a pillar would be left.
+/// Closed loops that cover a region, innermost first. Where an innermost loop runs around a core of
+/// more than the spacing, another goes through the core's middle: a pillar would be left.
 std::vector<std::vector<Column>> loops_of(const Region& region, double spacing_columns) {
-  const double deepest = region.depth.empty() ? 0 : *std::max_element(region.depth.begin(), region.depth.end());
+  const double deepest =
+      region.depth.empty() ? 0 : *std::max_element(region.depth.begin(), region.depth.end());
   std::vector<std::vector<Column>> loops;
   const auto trace_all = [&loops](Region level, const auto& of_component) {
     for (int y = 0; y < level.ny; ++y)
@@ -108,14 +115,18 @@ std::vector<std::vector<Column>> loops_of(const Region& region, double spacing_c
   for (int ring = static_cast<int>(deepest / spacing_columns); ring >= 0; --ring) {
     const double from = ring * spacing_columns;
     Region level = region;
-    for (std::size_t i = 0; i < level.inside.size(); ++i) level.inside[i] = region.inside[i] != 0 && region.depth[i] >= from;
+    for (std::size_t i = 0; i < level.inside.size(); ++i)
+      level.inside[i] = region.inside[i] != 0 && region.depth[i] >= from;
     trace_all(std::move(level), [&](const std::vector<Column>& columns) {
       double middle = 0;
-      for (const Column c : columns) middle = std::max(middle, region.depth[region.index(c.x, c.y)]);
-      if (middle < from + 0.5 * spacing_columns || middle >= from + spacing_columns) return;  // narrow, or it has a next ring
+      for (const Column c : columns)
+        middle = std::max(middle, region.depth[region.index(c.x, c.y)]);
+      if (middle < from + 0.5 * spacing_columns || middle >= from + spacing_columns)
+        return;  // narrow, or it has a next ring
       Region core = region;
       std::fill(core.inside.begin(), core.inside.end(), std::uint8_t{0});
-      for (const Column c : columns) core.inside[region.index(c.x, c.y)] = region.depth[region.index(c.x, c.y)] >= middle - 1;
+      for (const Column c : columns)
+        core.inside[region.index(c.x, c.y)] = region.depth[region.index(c.x, c.y)] >= middle - 1;
       trace_all(std::move(core), [](const std::vector<Column>&) {});
     });
   }
@@ -129,8 +140,10 @@ double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
   return length(p - a - ab * t);
 }
 
-/// Douglas-Peucker: keeps the points that stand off the line between their neighbours by more than `tolerance`.
-void simplify(const std::vector<Vec3>& line, std::size_t first, std::size_t last, double tolerance, std::vector<Vec3>& out) {
+/// Douglas-Peucker: keeps the points that stand off the line between their neighbours by more than
+/// `tolerance`.
+void simplify(const std::vector<Vec3>& line, std::size_t first, std::size_t last, double tolerance,
+              std::vector<Vec3>& out) {
   double furthest = tolerance;
   std::size_t split = first;
   for (std::size_t i = first + 1; i < last; ++i) {
@@ -148,10 +161,13 @@ void simplify(const std::vector<Vec3>& line, std::size_t first, std::size_t last
   simplify(line, split, last, tolerance, out);
 }
 
-/// A loop as places of the tip, simplified to `tolerance_mm`, at the layer's height or higher where the column ends.
-std::vector<Vec3> corners(const ReachMap& map, const std::vector<Column>& loop, double layer_z, double tolerance_mm) {
+/// A loop as places of the tip, simplified to `tolerance_mm`, at the layer's height or higher where
+/// the column ends.
+std::vector<Vec3> corners(const ReachMap& map, const std::vector<Column>& loop, double layer_z,
+                          double tolerance_mm) {
   std::vector<Vec3> line;
-  for (const auto& c : loop) line.push_back(map.at(c.x, c.y, std::max(layer_z, map.lowest_mm[map.index(c.x, c.y)])));
+  for (const auto& c : loop)
+    line.push_back(map.at(c.x, c.y, std::max(layer_z, map.lowest_mm[map.index(c.x, c.y)])));
   if (line.size() < 3) return line;
   std::vector<Vec3> out{line.front()};
   const std::size_t half = line.size() / 2;  // a closed loop has no chord: cut it in two
@@ -160,10 +176,12 @@ std::vector<Vec3> corners(const ReachMap& map, const std::vector<Column>& loop, 
   return out;
 }
 
-/// Builds the list of waypoints, lifting between distant places and marking those close to a void tissue.
+/// Builds the list of waypoints, lifting between distant places and marking those close to a void
+/// tissue.
 class Way {
  public:
-  Way(const Tooth& tooth, const ReachMap& map) : tooth_(tooth), tool_(map.tool), air_z_(map.origin_mm.z + k_above_mm) {}
+  Way(const Tooth& tooth, const ReachMap& map)
+      : tooth_(tooth), tool_(map.tool), air_z_(map.origin_mm.z + k_above_mm) {}
 
   void follow(const std::vector<Vec3>& loop) {
     if (loop.empty()) return;
@@ -201,7 +219,8 @@ class Way {
 
 }  // namespace
 
-std::vector<Waypoint> plan_cut(const ReachMap& map, const Tooth& tooth, const PlanOptions& options) {
+std::vector<Waypoint> plan_cut(const ReachMap& map, const Tooth& tooth,
+                               const PlanOptions& options) {
   double deepest = ReachMap::k_unreachable;
   for (const double z : map.lowest_mm) deepest = std::min(deepest, z);
   if (deepest == ReachMap::k_unreachable) return {};
@@ -211,36 +230,50 @@ std::vector<Waypoint> plan_cut(const ReachMap& map, const Tooth& tooth, const Pl
   const int layers = std::max(1, static_cast<int>((top - deepest) / options.layer_mm + 0.999));
   for (int i = 1; i <= layers; ++i) {
     const double z = top - (top - deepest) * i / layers;
-    // columns that end higher join with the height they have, so that each layer keeps its full outline
+    // columns that end higher join with the height they have, so that each layer keeps its full
+    // outline
     const double reach_z = z + options.layer_mm;
     for (std::size_t c = 0; c < inside.size(); ++c) inside[c] = map.lowest_mm[c] < reach_z;
     const Region region = region_of(map.nx, map.ny, inside);
     const auto loops = loops_of(region, options.spacing_mm / map.step_mm);
     for (const auto& loop : loops) way.follow(corners(map, loop, z, options.tolerance_mm));
-    // once more around the wall: what the first pass left would hold up the neck of the bur further down
+    // once more around the wall: what the first pass left would hold up the neck of the bur further
+    // down
     if (!loops.empty()) way.follow(corners(map, loops.back(), z, options.tolerance_mm));
   }
   // the floor pass follows the lowest reach of every column
-  for (std::size_t c = 0; c < inside.size(); ++c) inside[c] = map.lowest_mm[c] < ReachMap::k_unreachable;
+  for (std::size_t c = 0; c < inside.size(); ++c)
+    inside[c] = map.lowest_mm[c] < ReachMap::k_unreachable;
   const Region all = region_of(map.nx, map.ny, inside);
-  for (const auto& loop : loops_of(all, options.finish_spacing_mm / map.step_mm)) way.follow(corners(map, loop, deepest, options.tolerance_mm));
-  // before a neighbour a wall of the target bulges inwards with it: at each height once along all that reaches so deep
-  if (has_beside(tooth))
+  for (const auto& loop : loops_of(all, options.finish_spacing_mm / map.step_mm))
+    way.follow(corners(map, loop, deepest, options.tolerance_mm));
+  // before a neighbour a wall of the target bulges inwards with it: at each height once along all
+  // that reaches so deep
+  if (has_adjacent(tooth))
     for (double z = deepest; z < top; z += options.layer_mm / 3) {
-      for (std::size_t c = 0; c < inside.size(); ++c) inside[c] = map.lowest_mm[c] <= z + 0.5 * map.step_mm;
-      for (const auto& loop : loops_of(region_of(map.nx, map.ny, inside), k_outermost)) way.follow(corners(map, loop, z, options.tolerance_mm));
+      for (std::size_t c = 0; c < inside.size(); ++c)
+        inside[c] = map.lowest_mm[c] <= z + 0.5 * map.step_mm;
+      for (const auto& loop : loops_of(region_of(map.nx, map.ny, inside), k_outermost))
+        way.follow(corners(map, loop, z, options.tolerance_mm));
     }
   way.lift();
   return way.take();
 }
 
-std::vector<Waypoint> plan_pilot(const ReachMap& map, const Tooth& tooth, double head_radius_mm, const std::vector<std::string>& aims) {
-  constexpr double k_into_mm = 0.35, k_light_mm = 0.8;  // it goes on that far when it gives way; pressed lightly from there on
-  constexpr double k_none = -1e9, k_falls_share = 0.7;  // of the head's radius: with so much of it over the aim it falls in
+std::vector<Waypoint> plan_pilot(const ReachMap& map, const Tooth& tooth, double head_radius_mm,
+                                 const std::vector<std::string>& aims) {
+  constexpr double k_into_mm = 0.35,
+                   k_light_mm =
+                       0.8;  // it goes on that far when it gives way; pressed lightly from there on
+  constexpr double k_none = -1e9,
+                   k_falls_share =
+                       0.7;  // of the head's radius: with so much of it over the aim it falls in
   const double leaf = tooth.octree.leaf_mm();
   std::array<bool, 256> is_aim{};
-  for (const auto& t : tooth.tissues) is_aim[t.id] = t.id != k_air && std::find(aims.begin(), aims.end(), t.name) != aims.end();
-  std::vector<double> roof(map.lowest_mm.size(), k_none);  // height of the aim's first place from above
+  for (const auto& t : tooth.tissues)
+    is_aim[t.id] = t.id != k_air && std::find(aims.begin(), aims.end(), t.name) != aims.end();
+  std::vector<double> roof(map.lowest_mm.size(),
+                           k_none);  // height of the aim's first place from above
   for (int y = 0; y < map.ny; ++y)
     for (int x = 0; x < map.nx; ++x)
       for (double z = map.top_mm; z > map.bottom_mm && roof[map.index(x, y)] == k_none; z -= leaf)
@@ -258,15 +291,22 @@ std::vector<Waypoint> plan_pilot(const ReachMap& map, const Tooth& tooth, double
             low = std::min(low, roof[map.index(x + dx, y + dy)]);
           }
       const double lowest = map.lowest_mm[map.index(x, y)];
-      if (low == k_none || lowest >= low - leaf || high - low > least_spread - (low > falls_at ? 0.0 : leaf)) continue;
-      least_spread = high - low, falls_at = low, to_z = std::max(lowest, low - k_into_mm), at_x = x, at_y = y;
+      if (low == k_none || lowest >= low - leaf ||
+          high - low > least_spread - (low > falls_at ? 0.0 : leaf))
+        continue;
+      least_spread = high - low, falls_at = low, to_z = std::max(lowest, low - k_into_mm), at_x = x,
+      at_y = y;
     }
   if (at_x < 0) return {};
   const Vec3 air = map.at(at_x, at_y, map.origin_mm.z + k_above_mm);
-  return {{air, false, false}, {map.at(at_x, at_y, falls_at + k_light_mm), true, false}, {map.at(at_x, at_y, to_z), true, true}, {air, false, false}};
+  return {{air, false, false},
+          {map.at(at_x, at_y, falls_at + k_light_mm), true, false},
+          {map.at(at_x, at_y, to_z), true, true},
+          {air, false, false}};
 }
 
-std::vector<Waypoint> plan_perforation(const ZoneMap& zones, const Tooth& tooth, const ReachMap& map, std::uint8_t fault) {
+std::vector<Waypoint> plan_perforation(const ZoneMap& zones, const Tooth& tooth,
+                                       const ReachMap& map, std::uint8_t fault) {
   constexpr double k_furthest_mm = 6.0, k_beyond_mm = 0.8;
   const double leaf = zones.leaf_mm();
   double shortest = k_furthest_mm;

@@ -12,12 +12,14 @@
 
 namespace cavum::scenarios {
 
-/// `field(x, y)` on a window's leaf centres, y upwards. The path is in leaf units, y downwards; empty where nothing crosses.
+/// `field(x, y)` on a window's leaf centres, y upwards. The path is in leaf units, y downwards;
+/// empty where nothing crosses.
 template <class Field>
 [[nodiscard]] std::string contour(int width, int height, const Field& field) {
   std::string path;
   const auto segment = [&](double ax, double ay, double bx, double by) {
-    path += fmt::format("M{} {}L{} {}", svg_number(ax + 0.5), svg_number(height - ay - 0.5), svg_number(bx + 0.5), svg_number(height - by - 0.5));
+    path += fmt::format("M{} {}L{} {}", svg_number(ax + 0.5), svg_number(height - ay - 0.5),
+                        svg_number(bx + 0.5), svg_number(height - by - 0.5));
   };
   std::vector<double> now(static_cast<std::size_t>(width)), next(static_cast<std::size_t>(width));
   for (int x = 0; x < width; ++x) next[static_cast<std::size_t>(x)] = field(x, 0);
@@ -39,7 +41,8 @@ template <class Field>
       cross(c, d, x + 1, y + 1, x, y + 1);
       cross(d, a, x, y + 1, x, y);
       for (int k = 0; k + 1 < n; k += 2)
-        segment(at[static_cast<std::size_t>(k)].first, at[static_cast<std::size_t>(k)].second, at[static_cast<std::size_t>(k + 1)].first,
+        segment(at[static_cast<std::size_t>(k)].first, at[static_cast<std::size_t>(k)].second,
+                at[static_cast<std::size_t>(k + 1)].first,
                 at[static_cast<std::size_t>(k + 1)].second);
     }
   }

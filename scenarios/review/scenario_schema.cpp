@@ -17,7 +17,8 @@ Json defined(const char* name) { return {{"$ref", std::string("#/$defs/") + name
 
 Json outline_schema(OutlineSeen seen) {
   Json schema = defined("outline");
-  if (seen != OutlineSeen::from_occlusal) schema["properties"]["kind"]["enum"] = {"circle", "polygon", "stroke"};
+  if (seen != OutlineSeen::from_occlusal)
+    schema["properties"]["kind"]["enum"] = {"circle", "polygon", "stroke"};
   if (seen == OutlineSeen::from_side) schema["properties"]["from"]["const"] = "tooth";
   return schema;
 }
@@ -26,7 +27,9 @@ Json outline_schema(OutlineSeen seen) {
 template <class Spec>
 struct SharedSchema {
   bool required;
-  Json operator()(const NumberField<Spec>& n) const { return {{"type", "number"}, {"minimum", n.low}, {"maximum", n.high}}; }
+  Json operator()(const NumberField<Spec>& n) const {
+    return {{"type", "number"}, {"minimum", n.low}, {"maximum", n.high}};
+  }
   Json operator()(const WordField<Spec>& w) const { return {{"enum", w.words}}; }
   Json operator()(TissueField) const { return defined(required ? "some_text" : "text"); }
 };
@@ -37,8 +40,10 @@ Json field_schema(const Field<ShapeSpec, Own...>& f) {
                                 [](FileField) -> Json {
                                   return {{"type", "string"}, {"pattern", "\\.(stl|STL)$"}};
                                 },
-                                [](PlaceField) { return defined("vector"); }, [](AxisField) { return defined("vector"); },
-                                [](SizeField) { return defined("size"); }, [](BottomField) { return defined("bottom"); },
+                                [](PlaceField) { return defined("vector"); },
+                                [](AxisField) { return defined("vector"); },
+                                [](SizeField) { return defined("size"); },
+                                [](BottomField) { return defined("bottom"); },
                                 [](OutlineField o) { return outline_schema(o.seen); }},
                     f.as);
 }
@@ -46,26 +51,34 @@ template <class... Own>
 Json field_schema(const Field<OutlineSpec, Own...>& f) {
   return std::visit(ForEachSort{SharedSchema<OutlineSpec>{f.required},
                                 [](PointsField p) -> Json {
-                                  return {{"type", "array"}, {"minItems", p.at_least}, {"maxItems", k_max_points}, {"items", defined("point_mm")}};
+                                  return {{"type", "array"},
+                                          {"minItems", p.at_least},
+                                          {"maxItems", k_max_points},
+                                          {"items", defined("point_mm")}};
                                 },
                                 [](CentreField) { return defined("point_mm"); }},
                     f.as);
 }
-Json field_schema(const Field<BottomSpec>& f) { return std::visit(SharedSchema<BottomSpec>{f.required}, f.as); }
+Json field_schema(const Field<BottomSpec>& f) {
+  return std::visit(SharedSchema<BottomSpec>{f.required}, f.as);
+}
 
 /// What each kind needs, told by the word of `tag`.
 template <class Kind>
 void add_kinds(Json& schema, const char* tag, const std::vector<Kind>& kinds) {
   schema["properties"][tag] = {{"enum", names_of(kinds)}};
   for (const Kind& kind : kinds) {
-    Json then{{"required", Json::array()}, {"properties", Json::object()}, {"additionalProperties", false}};
+    Json then{{"required", Json::array()},
+              {"properties", Json::object()},
+              {"additionalProperties", false}};
     for (const auto& [key, value] : schema["properties"].items()) then["properties"][key] = true;
     for (const auto& f : kind.fields) {
       if (f.required) then["required"].push_back(f.key);
       Json& field = then["properties"][f.key] = field_schema(f);
       if (*f.meaning != '\0') field["description"] = f.meaning;
     }
-    schema["allOf"].push_back({{"if", {{"properties", {{tag, {{"const", kind.name}}}}}}}, {"then", then}});
+    schema["allOf"].push_back(
+        {{"if", {{"properties", {{tag, {{"const", kind.name}}}}}}}, {"then", then}});
   }
 }
 

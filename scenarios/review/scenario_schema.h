@@ -1,4 +1,5 @@
-// The JSON Schema of a scenario's file, for editors: data/schemas/scenario.schema.json, and in it each kind of body with its fields.
+// The JSON Schema of a scenario's file, for editors: data/schemas/scenario.schema.json, and in it
+// each kind of body with its fields.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

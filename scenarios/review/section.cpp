@@ -17,7 +17,8 @@ int top_of(const Octree& tree, int x, int y) {
 
 }  // namespace
 
-Section::Section(const Octree& tooth, const Octree* cut, const ZoneMap& map, View view, double at_mm)
+Section::Section(const Octree& tooth, const Octree* cut, const ZoneMap& map, View view,
+                 double at_mm)
     : before(tooth), after(cut), zones(map), view_(view), high_(tooth.size()) {
   const IVec3 probe = before.leaf_at({at_mm, at_mm, at_mm});
   depth_ = view_ == View::mesio_distal ? probe.y : view_ == View::bucco_lingual ? probe.x : probe.z;
@@ -28,12 +29,16 @@ Section::Section(const Octree& tooth, const Octree* cut, const ZoneMap& map, Vie
 
 /// The crown and what lies around the target; the tips of the roots are not needed.
 void Section::frame_target() {
-  constexpr double k_below_target_mm = 4.0, k_over_target_mm = 0.8, k_above_mm = 0.4;  // the last over the crown's highest place
+  constexpr double k_below_target_mm = 4.0, k_over_target_mm = 0.8,
+                   k_above_mm = 0.4;  // the last over the crown's highest place
   low_.z = std::max(0, before.leaf_at(zones.target_low_mm() - Vec3{0, 0, k_below_target_mm}).z);
   int crown = 0;
-  before.for_each_cube([&](IVec3 at, int edge, std::uint8_t) { crown = std::max(crown, at.z + edge); });
-  const int over_target = before.leaf_at(zones.target_high_mm() + Vec3{0, 0, k_over_target_mm}).z + 1;
-  high_.z = std::min(high_.z, std::max(over_target, crown + static_cast<int>(k_above_mm / before.leaf_mm())));
+  before.for_each_cube(
+      [&](IVec3 at, int edge, std::uint8_t) { crown = std::max(crown, at.z + edge); });
+  const int over_target =
+      before.leaf_at(zones.target_high_mm() + Vec3{0, 0, k_over_target_mm}).z + 1;
+  high_.z = std::min(
+      high_.z, std::max(over_target, crown + static_cast<int>(k_above_mm / before.leaf_mm())));
 }
 
 /// Nor is a channel cut off that was drilled deeper.
@@ -77,12 +82,14 @@ IVec3 Section::leaf(int column, int row) const noexcept {
   return {low_.x + column, low_.y + row, depth_};
 }
 
-bool Section::beside_tooth(int column, int row) const noexcept {
+bool Section::adjacent_tooth(int column, int row) const noexcept {
   if (from_above()) return top(column, row) < 0;
   const auto t = before.tissue(leaf(column, row));
   return t == k_air || t == k_periodontium;
 }
 
-bool Section::air(int column, int row) const noexcept { return from_above() ? top(column, row) < 0 : before.tissue(leaf(column, row)) == k_air; }
+bool Section::air(int column, int row) const noexcept {
+  return from_above() ? top(column, row) < 0 : before.tissue(leaf(column, row)) == k_air;
+}
 
 }  // namespace cavum::scenarios

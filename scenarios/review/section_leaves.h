@@ -1,4 +1,5 @@
-// The leaves of a section in their colours: tissues, what was removed, and from above the shade of the slopes.
+// The leaves of a section in their colours: tissues, what was removed, and from above the shade of
+// the slopes.
 #pragma once
 
 #include <string>
@@ -9,6 +10,7 @@
 namespace cavum::scenarios {
 
 /// One SVG path for each colour, in leaf units.
-[[nodiscard]] std::string section_leaves_svg(const Section& section, const PictureSpec& spec, const Palette& colours);
+[[nodiscard]] std::string section_leaves_svg(const Section& section, const PictureSpec& spec,
+                                             const Palette& colours);
 
 }  // namespace cavum::scenarios

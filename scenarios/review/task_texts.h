@@ -1,5 +1,6 @@
-// The texts of the tasks that `cavum scenario new` writes: data/tasks/NAME.toml, one file a task, and data/tasks/common.toml for what all have in
-// common. A text has gaps, `{width}`: another text of the two files, a length chosen on the tooth, or `{bodies}` (bodies.h).
+// The texts of the tasks that `cavum scenario new` writes: data/tasks/NAME.toml, one file a task,
+// and data/tasks/common.toml for what all have in common. A text has gaps, `{width}`: another text
+// of the two files, a length chosen on the tooth, or `{bodies}` (bodies.h).
 #pragma once
 
 #include <map>
@@ -21,16 +22,21 @@ using Gaps = std::vector<Gap>;
 
 class TaskTexts {
  public:
-  /// Of data/tasks/NAME.toml. Throws Error where a file is not there, or holds what is no text, number or list of texts.
+  /// Of data/tasks/NAME.toml. Throws Error where a file is not there, or holds what is no text,
+  /// number or list of texts.
   explicit TaskTexts(const std::string& task);
 
-  /// A text with its gaps filled, those of texts in it too; a list as TOML. A text `name` + `variant`, where there is one, is taken before `name`.
-  /// Throws Error for a gap that nothing fills.
-  [[nodiscard]] std::string filled(const std::string& name, const Gaps& gaps, const std::string& variant = {}) const;
+  /// A text with its gaps filled, those of texts in it too; a list as TOML. A text `name` +
+  /// `variant`, where there is one, is taken before `name`. Throws Error for a gap that nothing
+  /// fills.
+  [[nodiscard]] std::string filled(const std::string& name, const Gaps& gaps,
+                                   const std::string& variant = {}) const;
   [[nodiscard]] double number(const std::string& name) const;
   /// A list, or one text, as sentences.
-  [[nodiscard]] List sentences(const std::string& name, const Gaps& gaps, const std::string& variant = {}) const;
-  [[nodiscard]] Message sentence(const std::string& name, const Gaps& gaps, const std::string& variant = {}) const;
+  [[nodiscard]] List sentences(const std::string& name, const Gaps& gaps,
+                               const std::string& variant = {}) const;
+  [[nodiscard]] Message sentence(const std::string& name, const Gaps& gaps,
+                                 const std::string& variant = {}) const;
 
  private:
   struct Text {
@@ -40,14 +46,17 @@ class TaskTexts {
   };
   void read(const std::string& file);
   [[nodiscard]] const Text& text(const std::string& name, const std::string& variant) const;
-  void fill(std::string& out, const std::string& text, const Gaps& gaps, const std::string& variant, int depth) const;
+  void fill(std::string& out, const std::string& text, const Gaps& gaps, const std::string& variant,
+            int depth) const;
   std::string file_;
   std::map<std::string, Text> texts_;
 };
 
-/// Tasks on the block that ships, which has no landmarks: each file of data/tasks that begins with block_.
+/// Tasks on the block that ships, which has no landmarks: each file of data/tasks that begins with
+/// block_.
 [[nodiscard]] std::vector<std::string> block_task_words();
-/// A whole scenario with comments, without mistakes. Throws Error that lists the tasks for any other word.
+/// A whole scenario with comments, without mistakes. Throws Error that lists the tasks for any
+/// other word.
 [[nodiscard]] std::string block_task(const std::string& word);
 
 }  // namespace cavum::scenarios

@@ -7,15 +7,18 @@
 namespace cavum::scenarios {
 namespace {
 
-// Class V: the gingival third of the buccal surface, walls that follow neck and surface, half a millimetre into dentin, 1 to 1.25 mm at the gingival
-// wall and up to 1.5 to 1.75 mm at the occlusal one (operative dentistry lab notes, brainscape.com, "Lab 4: Class V"; the same from memory in
-// Sturdevant's Art and Science of Operative Dentistry). One depth is asked for here. Width and height are the house's own: so wide that one direction
-// of the handpiece reaches the curved axial wall up to its ends.
+// Class V: the gingival third of the buccal surface, walls that follow neck and surface, half a
+// millimetre into dentin, 1 to 1.25 mm at the gingival wall and up to 1.5 to 1.75 mm at the
+// occlusal one (operative dentistry lab notes, brainscape.com, "Lab 4: Class V"; the same from
+// memory in Sturdevant's Art and Science of Operative Dentistry). One depth is asked for here.
+// Width and height are the house's own: so wide that one direction of the handpiece reaches the
+// curved axial wall up to its ends.
 constexpr double k_class_5_share = 0.38, k_class_5_narrowest_mm = 2.0, k_class_5_widest_mm = 4.5;
 constexpr double k_class_5_height_mm = 2.0, k_corner_mm = 0.55;
 
 // Dexterity: the house's own. As wide and long as the shapes of data/scenarios, a millimetre deep.
-constexpr double k_dexterity_up = 0.42;  // of the way from the neck to the cusp or edge: the buccal surface stands upright there
+constexpr double k_dexterity_up =
+    0.42;  // of the way from the neck to the cusp or edge: the buccal surface stands upright there
 constexpr double k_min_crown_mm = 5.0;
 
 constexpr char k_front[] = "_front";
@@ -56,32 +59,42 @@ Message why_no_front_access(const Tooth&, const Landmarks& l) {
 
 std::vector<TaskChoice> front_access(const Tooth&, const Landmarks&) {
   std::vector<TaskChoice> list;
-  for (const double rounding : {0.55, 0.5}) list.push_back({.gaps = {gap_mm("rounding", rounding, k_as_needed)}, .variant = k_front});
+  for (const double rounding : {0.55, 0.5})
+    list.push_back({.gaps = {gap_mm("rounding", rounding, k_as_needed)}, .variant = k_front});
   return list;
 }
 
-Message why_no_class_5(const Tooth&, const Landmarks& l) { return l.neck_mm.empty() ? msg("its neck is not found") : Message(); }
+Message why_no_class_5(const Tooth&, const Landmarks& l) {
+  return l.neck_mm.empty() ? msg("its neck is not found") : Message();
+}
 
 std::vector<TaskChoice> class_5(const Tooth&, const Landmarks& l) {
   std::vector<TaskChoice> list;
-  const double width = std::clamp(k_class_5_share * length_in_x(l.neck_mm), k_class_5_narrowest_mm, k_class_5_widest_mm);
+  const double width = std::clamp(k_class_5_share * length_in_x(l.neck_mm), k_class_5_narrowest_mm,
+                                  k_class_5_widest_mm);
   for (const double above : {0.7, 1.0})
     for (const double depth : {1.25, 1.0})
-      list.push_back({.gaps = {gap_mm("width", width, 1), gap_mm("height", k_class_5_height_mm, 1), gap_mm("above", above, 1),
-                               gap_mm("depth", depth, k_as_needed), gap_mm("corner", k_corner_mm, 2), gap_mm("half", 0.5 * width - k_corner_mm, 2),
-                               gap_mm("low", above + k_corner_mm, 2), gap_mm("high", above + k_class_5_height_mm - k_corner_mm, 2)}});
+      list.push_back(
+          {.gaps = {gap_mm("width", width, 1), gap_mm("height", k_class_5_height_mm, 1),
+                    gap_mm("above", above, 1), gap_mm("depth", depth, k_as_needed),
+                    gap_mm("corner", k_corner_mm, 2), gap_mm("half", 0.5 * width - k_corner_mm, 2),
+                    gap_mm("low", above + k_corner_mm, 2),
+                    gap_mm("high", above + k_class_5_height_mm - k_corner_mm, 2)}});
   return list;
 }
 
 Message why_no_crown(const Tooth&, const Landmarks& l) {
   if (l.neck_mm.empty()) return msg("its neck is not found");
-  if (l.cusps.empty() && l.incisal_edge_mm.empty()) return msg("neither cusps nor an incisal edge are found");
+  if (l.cusps.empty() && l.incisal_edge_mm.empty())
+    return msg("neither cusps nor an incisal edge are found");
   return buccal_crown_mm(l) < k_min_crown_mm ? msg("its crown is too low for a stump") : Message();
 }
 
-// Total occlusal convergence 10 to 20 degrees, a stump at least 4 mm high on molars and 3 mm on others (Goodacre, Campagni and Aquilino, J Prosthet
-// Dent 2001; 85: 363). Finish line 1 to 1.5 mm, incisal or occlusal reduction 2 mm (recommended for metal-ceramic, by Al-Omari and Al-Wahadni,
-// Quintessence Int 2004; 35: 287). The chamfer of 0.8 mm for a small tooth lies within what is said of metal (0.5 to 0.8 mm).
+// Total occlusal convergence 10 to 20 degrees, a stump at least 4 mm high on molars and 3 mm on
+// others (Goodacre, Campagni and Aquilino, J Prosthet Dent 2001; 85: 363). Finish line 1 to 1.5 mm,
+// incisal or occlusal reduction 2 mm (recommended for metal-ceramic, by Al-Omari and Al-Wahadni,
+// Quintessence Int 2004; 35: 287). The chamfer of 0.8 mm for a small tooth lies within what is said
+// of metal (0.5 to 0.8 mm).
 std::vector<TaskChoice> crown_preparation(const Tooth&, const Landmarks& l) {
   std::vector<TaskChoice> list;
   const bool front = !l.incisal_edge_mm.empty();

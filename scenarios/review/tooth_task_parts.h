@@ -1,4 +1,5 @@
-// The parts that tasks for any tooth are put together from: what there is to choose from, best first, and why a tooth is not fit.
+// The parts that tasks for any tooth are put together from: what there is to choose from, best
+// first, and why a tooth is not fit.
 #pragma once
 
 #include <array>
@@ -16,7 +17,8 @@ struct TaskChoice {
   std::string variant{};            ///< "_front": texts of that ending go before
   bool shell = false;               ///< leaves a shell before the neighbour out of the target
   std::array<bool, 2> pits_left{};  ///< mesial, distal: beside the cavity
-  std::string floor{};              ///< TOML; later choices of the same floor lie no further from the pulp; empty: nothing is said
+  std::string floor{};  ///< TOML; later choices of the same floor lie no further from the pulp;
+                        ///< empty: nothing is said
 };
 
 /// A front tooth's access, leaning towards lingual. Empty `why_not`: the tooth shows what it needs.
@@ -29,7 +31,8 @@ struct TaskChoice {
 
 /// A full crown's preparation.
 [[nodiscard]] Message why_no_crown(const Tooth& tooth, const Landmarks& landmarks);
-[[nodiscard]] std::vector<TaskChoice> crown_preparation(const Tooth& tooth, const Landmarks& landmarks);
+[[nodiscard]] std::vector<TaskChoice> crown_preparation(const Tooth& tooth,
+                                                        const Landmarks& landmarks);
 
 /// Shapes of one depth in the buccal surface: manual dexterity.
 [[nodiscard]] Message why_no_dexterity(const Tooth& tooth, const Landmarks& landmarks);

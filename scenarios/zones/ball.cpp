@@ -15,6 +15,8 @@ class Ball final : public Shape {
 
 }  // namespace
 
-std::unique_ptr<Shape> body_ball(const ShapeSpec& spec, ShapeMaker&, const Message&) { return std::make_unique<Ball>(spec); }
+std::unique_ptr<Shape> body_ball(const ShapeSpec& spec, ShapeMaker&, const Message&) {
+  return std::make_unique<Ball>(spec);
+}
 
 }  // namespace cavum::scenarios

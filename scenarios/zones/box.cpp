@@ -25,9 +25,12 @@ class Box final : public Shape {
 
 }  // namespace
 
-std::unique_ptr<Shape> body_box(const ShapeSpec& spec, ShapeMaker&, const Message&) { return std::make_unique<Box>(spec); }
+std::unique_ptr<Shape> body_box(const ShapeSpec& spec, ShapeMaker&, const Message&) {
+  return std::make_unique<Box>(spec);
+}
 
-std::unique_ptr<Shape> body_proximal_box(const ShapeSpec& spec, ShapeMaker& maker, const Message& where) {
+std::unique_ptr<Shape> body_proximal_box(const ShapeSpec& spec, ShapeMaker& maker,
+                                         const Message& where) {
   return std::make_unique<Box>(place_proximal_box(spec, maker.own(), maker.landmarks(), where));
 }
 

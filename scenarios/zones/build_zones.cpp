@@ -17,12 +17,13 @@ namespace cavum::scenarios {
 namespace {
 
 /// Leaves around the part of the target that lies in the tooth.
-LeafBounds find_target(const Shape& target, const Tooth& tooth, const Message& where, ZoneWork& work) {
+LeafBounds find_target(const Shape& target, const Tooth& tooth, const Message& where,
+                       ZoneWork& work) {
   const Octree& tree = tooth.octree;
   LeafBounds box;
   const auto see = [&](IVec3 leaf) {
-    const bool seen =
-        leaf.x >= box.low.x && leaf.y >= box.low.y && leaf.z >= box.low.z && leaf.x < box.high.x && leaf.y < box.high.y && leaf.z < box.high.z;
+    const bool seen = leaf.x >= box.low.x && leaf.y >= box.low.y && leaf.z >= box.low.z &&
+                      leaf.x < box.high.x && leaf.y < box.high.y && leaf.z < box.high.z;
     if (seen || target.distance_mm(tree.centre_mm(leaf)) >= 0) return;
     box.add(leaf, leaf + IVec3{1, 1, 1});
   };
@@ -49,17 +50,22 @@ LeafBounds find_target(const Shape& target, const Tooth& tooth, const Message& w
 std::uint64_t leaves_with_tissue(const Octree& tree) {
   std::uint64_t leaves = 0;
   tree.for_each_cube([&](IVec3, int edge, std::uint8_t tissue) {
-    if (tissue != k_air) leaves += static_cast<std::uint64_t>(edge) * static_cast<std::uint64_t>(edge) * static_cast<std::uint64_t>(edge);
+    if (tissue != k_air)
+      leaves += static_cast<std::uint64_t>(edge) * static_cast<std::uint64_t>(edge) *
+                static_cast<std::uint64_t>(edge);
   });
   return leaves;
 }
 
 /// The widest margin around the target that has a zone, and a little more.
 double margin_mm(const ZoneSpec& spec) {
-  return std::max({spec.leeway.sides_mm, spec.leeway.bottom_mm, spec.container.sides_mm, spec.container.bottom_mm}) + 0.25;
+  return std::max({spec.leeway.sides_mm, spec.leeway.bottom_mm, spec.container.sides_mm,
+                   spec.container.bottom_mm}) +
+         0.25;
 }
 
-/// The axis of the target's first body where a handpiece comes in that way; from the side, of a cavity in it; else +z.
+/// The axis of the target's first body where a handpiece comes in that way; from the side, of a
+/// cavity in it; else +z.
 Vec3 approach_of(const ZoneSpec& spec, ShapeMaker& maker) {
   constexpr double k_steep = 0.5;  // cosine: flatter ways in are no way for a handpiece
   if (spec.target.empty()) return {0, 0, 1};
@@ -69,13 +75,17 @@ Vec3 approach_of(const ZoneSpec& spec, ShapeMaker& maker) {
 }
 
 Facing facing_of(const ZoneSpec& spec, const ToothKind& tooth) {
-  return {!spec.target.empty() && body_is(spec.target[0], k_from_side) ? spec.target[0].side : 0, tooth.anterior()};
+  return {!spec.target.empty() && body_is(spec.target[0], k_from_side) ? spec.target[0].side : 0,
+          tooth.anterior()};
 }
 
-/// Of a leaf outside the target that is not protected: by its distance, towards the sides or the bottom.
+/// Of a leaf outside the target that is not protected: by its distance, towards the sides or the
+/// bottom.
 Zone zone_at(double distance_mm, bool bottom, const ZoneSpec& spec) {
-  if (distance_mm <= (bottom ? spec.leeway.bottom_mm : spec.leeway.sides_mm)) return bottom ? Zone::leeway_bottom : Zone::leeway_sides;
-  if (distance_mm <= (bottom ? spec.container.bottom_mm : spec.container.sides_mm)) return bottom ? Zone::container_bottom : Zone::container_sides;
+  if (distance_mm <= (bottom ? spec.leeway.bottom_mm : spec.leeway.sides_mm))
+    return bottom ? Zone::leeway_bottom : Zone::leeway_sides;
+  if (distance_mm <= (bottom ? spec.container.bottom_mm : spec.container.sides_mm))
+    return bottom ? Zone::container_bottom : Zone::container_sides;
   return Zone::none;
 }
 
@@ -97,30 +107,35 @@ class ZoneBuilder {
   void require_target() const;
   void measure_target(const ShapeField& shape);
   [[nodiscard]] std::optional<double> surface_above(IVec3 at, std::size_t i);
-  [[nodiscard]] std::optional<double> surface_beside(IVec3 at) const;
+  [[nodiscard]] std::optional<double> adjacent_surface(IVec3 at) const;
   void lay_guard_beyond();
   void lay_shares();
-  [[nodiscard]] bool guarded(IVec3 leaf) const { return guard_ != nullptr && guard_->distance_mm(map_.centre_mm(leaf)) < 0; }
+  [[nodiscard]] bool guarded(IVec3 leaf) const {
+    return guard_ != nullptr && guard_->distance_mm(map_.centre_mm(leaf)) < 0;
+  }
 
   const Octree& tree_;  // with all that stands beside the tooth
   const ZoneSpec& spec_;
   const Tooth& tooth_;
   ShapeMaker maker_;
-  const Octree& own_;                               // the tooth alone: what has a zone, but for what is protected
-  std::unique_ptr<Shape> target_, guard_, beside_;  // no guard where nothing is protected, nothing beside a tooth that stands alone
-  Message where_;                                   // of the target's first body
+  const Octree& own_;  // the tooth alone: what has a zone, but for what is protected
+  std::unique_ptr<Shape> target_, guard_,
+      beside_;     // no guard where nothing is protected, nothing beside a tooth that stands alone
+  Message where_;  // of the target's first body
   ZoneMap map_;
   std::vector<std::uint8_t> tissue_;  // of the leaves of the map's box
 };
 
-ZoneBuilder::ZoneBuilder(const Scenario& scenario, const Tooth& tooth, std::optional<Landmarks> landmarks)
+ZoneBuilder::ZoneBuilder(const Scenario& scenario, const Tooth& tooth,
+                         std::optional<Landmarks> landmarks)
     : tree_(tooth.octree),
       spec_(scenario.zones),
       tooth_(tooth),
       maker_(tooth, scenario.path, std::move(landmarks)),
       own_(maker_.own().octree),
       target_(maker_.make(spec_.target)),
-      where_(spec_.target.empty() ? Message(Name{scenario.path}) : Message(place_text(scenario.path, spec_.target[0]))) {}
+      where_(spec_.target.empty() ? Message(Name{scenario.path})
+                                  : Message(location_text(scenario.path, spec_.target[0]))) {}
 
 ZoneMap ZoneBuilder::build() {
   place_box();
@@ -176,16 +191,18 @@ ShapeField ZoneBuilder::shape_field() const {
 
 /// True distances to the target's surface, and the wall that each leaf belongs to.
 void ZoneBuilder::lay_distances(const ShapeField& shape) {
-  const std::vector<NearestPlace> nearest = nearest_places(shape, map_.facing_);
+  const std::vector<NearestPoint> nearest = nearest_points(shape, map_.facing_);
   map_.wall_.assign(nearest.size(), 0);
   map_.distance_mm_.assign(nearest.size(), 0);
   for_each_cell(map_.size_, [&](std::size_t i, IVec3 cell) {
-    const NearestPlace& near = nearest[i];
+    const NearestPoint& near = nearest[i];
     const bool in = shape.inside[i] != 0;
     const Vec3 way = to_vec3(cell) - near.at();
     const double d = near.found ? length(way) * map_.leaf_mm_ : margin_mm(spec_);
     map_.distance_mm_[i] = static_cast<float>(in ? -d : d);
-    map_.wall_[i] = static_cast<std::uint8_t>(!near.found || length(way) < 1.5 ? near.wall : wall_of(map_.facing_.local(in ? -way : way)));
+    map_.wall_[i] = static_cast<std::uint8_t>(!near.found || length(way) < 1.5
+                                                  ? near.wall
+                                                  : wall_of(map_.facing_.local(in ? -way : way)));
   });
 }
 
@@ -206,25 +223,33 @@ void ZoneBuilder::lay_zones(const ShapeField& shape) {
   for_each_cell(map_.size_, [&](std::size_t i, IVec3 cell) {
     const IVec3 at = map_.low_ + cell;
     // of what stands beside the tooth only that has a zone which is protected
-    if (tissue_[i] == k_air && (beside_ == nullptr || guard_ == nullptr || tree_.tissue(at) == k_air || !guarded(at))) return;
+    if (tissue_[i] == k_air &&
+        (beside_ == nullptr || guard_ == nullptr || tree_.tissue(at) == k_air || !guarded(at)))
+      return;
     Zone zone = Zone::target;
     if (shape.inside[i] == 0)
-      zone =
-          guarded(at) ? Zone::protected_ : zone_at(static_cast<double>(map_.distance_mm_[i]), static_cast<Wall>(map_.wall_[i]) == Wall::floor, spec_);
+      zone = guarded(at) ? Zone::protected_
+                         : zone_at(static_cast<double>(map_.distance_mm_[i]),
+                                   static_cast<Wall>(map_.wall_[i]) == Wall::floor, spec_);
     map_.zone_[i] = static_cast<std::uint8_t>(zone);
     ++map_.counts_[static_cast<std::size_t>(zone)];
-    if (zone == Zone::protected_ && tissue_[i] != k_air && target_->distance_mm(map_.centre_mm(at)) < 0) ++map_.guarded_in_target_;
+    if (zone == Zone::protected_ && tissue_[i] != k_air &&
+        target_->distance_mm(map_.centre_mm(at)) < 0)
+      ++map_.guarded_in_target_;
   });
 }
 
 void ZoneBuilder::require_target() const {
   if (map_.count(Zone::target) > 0) return;
   if (map_.guarded_in_target_ > 0)
-    throw Error(where_, msg("all of the target is protected"), msg("move the target, or protect less under [[zones.protected]]"));
-  throw Error(where_, msg("the target holds no leaf of the tooth '{}'", tooth_.name), msg("make it larger"));
+    throw Error(where_, msg("all of the target is protected"),
+                msg("move the target, or protect less under [[zones.protected]]"));
+  throw Error(where_, msg("the target holds no leaf of the tooth '{}'", tooth_.name),
+              msg("make it larger"));
 }
 
-/// Of the target's leaves: their box, how many lie at its border, whether there is a way to them, and how high the tooth's surface lies over them.
+/// Of the target's leaves: their box, how many lie at its border, whether there is a way to them,
+/// and how high the tooth's surface lies over them.
 void ZoneBuilder::measure_target(const ShapeField& shape) {
   const IVec3 size = map_.size_;
   const std::size_t row = shape.row(), layer = shape.layer();
@@ -237,23 +262,29 @@ void ZoneBuilder::measure_target(const ShapeField& shape) {
     const IVec3 at = map_.low_ + cell;
     box.add(at);
     const auto ends_along = [&](int place, int count, std::size_t stride) {
-      return (place > 0 && shape.inside[i - stride] == 0) || (place + 1 < count && shape.inside[i + stride] == 0);
+      return (place > 0 && shape.inside[i - stride] == 0) ||
+             (place + 1 < count && shape.inside[i + stride] == 0);
     };
-    if (ends_along(cell.x, size.x, 1) || ends_along(cell.y, size.y, row) || ends_along(cell.z, size.z, layer)) ++map_.target_border_;
-    for (const IVec3 step : k_six_neighbours) map_.target_is_open_ = map_.target_is_open_ || own_.tissue(at + step, cursor) == k_air;
-    const auto surface = map_.facing_.lateral() ? surface_beside(at) : surface_above(at, i);
+    if (ends_along(cell.x, size.x, 1) || ends_along(cell.y, size.y, row) ||
+        ends_along(cell.z, size.z, layer))
+      ++map_.target_border_;
+    for (const IVec3 step : k_six_neighbours)
+      map_.target_is_open_ = map_.target_is_open_ || own_.tissue(at + step, cursor) == k_air;
+    const auto surface = map_.facing_.lateral() ? adjacent_surface(at) : surface_above(at, i);
     if (!surface) return;
     opening_sum += *surface;
     ++openings;
   });
   map_.target_low_mm_ = map_.centre_mm(box.low) - Vec3{0.5, 0.5, 0.5} * map_.leaf_mm_;
   map_.target_high_mm_ = map_.centre_mm(box.high) + Vec3{0.5, 0.5, 0.5} * map_.leaf_mm_;
-  map_.opening_z_mm_ = openings > 0 ? opening_sum / static_cast<double>(openings) : map_.top_level_mm();
+  map_.opening_z_mm_ =
+      openings > 0 ? opening_sum / static_cast<double>(openings) : map_.top_level_mm();
 }
 
 /// Height of the tooth's surface over a target leaf that lies right under it.
 std::optional<double> ZoneBuilder::surface_above(IVec3 at, std::size_t i) {
-  const std::size_t layer = static_cast<std::size_t>(map_.size_.x) * static_cast<std::size_t>(map_.size_.y);
+  const std::size_t layer =
+      static_cast<std::size_t>(map_.size_.x) * static_cast<std::size_t>(map_.size_.y);
   if (at.z - map_.low_.z + 1 != map_.size_.z && tissue_[i + layer] != k_air) return {};
   const double surface = maker_.surface().value[maker_.surface().index(at.x, at.y)];
   if (std::fabs(surface - map_.centre_mm(at).z) > map_.leaf_mm_) return {};
@@ -261,7 +292,7 @@ std::optional<double> ZoneBuilder::surface_above(IVec3 at, std::size_t i) {
 }
 
 /// The same, seen from a side.
-std::optional<double> ZoneBuilder::surface_beside(IVec3 at) const {
+std::optional<double> ZoneBuilder::adjacent_surface(IVec3 at) const {
   if (tree_.is_solid(tree_.tissue(at + map_.facing_.in_tooth({0, 0, 1})))) return {};
   const double beyond = std::clamp(-decode_distance(tree_.distance_code(at)), 0.02, 0.98);
   return map_.facing_.local(map_.centre_mm(at)).z + beyond * map_.leaf_mm_;
@@ -292,7 +323,8 @@ void ZoneBuilder::lay_shares() {
     if (tissue_[i] == k_air || depth < -k_parts_reach_leaves) return;
     double share = 1;
     if (depth < k_parts_reach_leaves) {
-      const LeafParts parts = leaf_parts(map_.low_ + cell, [&](IVec3 l) { return -map_.distance_mm(l) / leaf_mm; });
+      const LeafParts parts =
+          leaf_parts(map_.low_ + cell, [&](IVec3 l) { return -map_.distance_mm(l) / leaf_mm; });
       share = 0;
       for (const double p : parts) share += share_beyond(p) / k_parts;
     }
@@ -301,7 +333,9 @@ void ZoneBuilder::lay_shares() {
   });
 }
 
-ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) { return ZoneBuilder(scenario, tooth, {}).build(); }
+ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth) {
+  return ZoneBuilder(scenario, tooth, {}).build();
+}
 
 ZoneMap build_zones(const Scenario& scenario, const Tooth& tooth, const Landmarks& landmarks) {
   return ZoneBuilder(scenario, tooth, landmarks).build();
@@ -311,7 +345,8 @@ std::string landmarks_to_keep(const Scenario& scenario, const Tooth& tooth) {
   return follows_landmarks(scenario.zones) ? landmarks_text(find_landmarks(tooth)) : "";
 }
 
-ZoneMap build_zones_of_exam(const Scenario& scenario, const Tooth& tooth, const std::string& landmarks_json, const std::string& where) {
+ZoneMap build_zones_of_exam(const Scenario& scenario, const Tooth& tooth,
+                            const std::string& landmarks_json, const std::string& where) {
   if (landmarks_json.empty()) return build_zones(scenario, tooth);
   return build_zones(scenario, tooth, parse_landmarks(landmarks_json, where + ": landmarks.json"));
 }

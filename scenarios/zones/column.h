@@ -18,11 +18,13 @@ namespace cavum::scenarios {
   return std::max(a, b);
 }
 
-/// It has no upper end, for the opening is no wall. Heights and the outline's plane are those of the frame in which it stands upright.
+/// It has no upper end, for the opening is no wall. Heights and the outline's plane are those of
+/// the frame in which it stands upright.
 class Column final : public Shape {
  public:
-  /// `bottom`: the floor's height for each column of leaves. The outline's distance is the same all the way down, so it is taken once for each of
-  /// them. The walls open by `taper_deg` upwards; at height `outline_z` they are as drawn.
+  /// `bottom`: the floor's height for each column of leaves. The outline's distance is the same all
+  /// the way down, so it is taken once for each of them. The walls open by `taper_deg` upwards; at
+  /// height `outline_z` they are as drawn.
   Column(std::unique_ptr<Outline> outline, ColumnMap bottom, double taper_deg, double outline_z);
   double distance_mm(Vec3 p) const noexcept override {
     const double side = (outline_mm(p.x, p.y) - tan_ * (p.z - outline_z_)) * cos_;
@@ -30,7 +32,9 @@ class Column final : public Shape {
   }
 
  private:
-  [[nodiscard]] double centre(double origin, int i) const noexcept { return origin + (i + 0.5) * bottom_.leaf_mm; }
+  [[nodiscard]] double centre(double origin, int i) const noexcept {
+    return origin + (i + 0.5) * bottom_.leaf_mm;
+  }
   [[nodiscard]] double outline_mm(double x_mm, double y_mm) const noexcept;
   std::unique_ptr<Outline> outline_;
   ColumnMap bottom_;

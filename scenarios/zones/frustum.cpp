@@ -17,14 +17,18 @@ namespace {
 /// A four-cornered profile turned about the axis.
 class Frustum final : public Shape {
  public:
-  Frustum(const ShapeSpec& s, double top) : frame_(shape_frame(s)), low_(s.radius_mm), top_(top), height_(s.height_mm) {}
+  Frustum(const ShapeSpec& s, double top)
+      : frame_(shape_frame(s)), low_(s.radius_mm), top_(top), height_(s.height_mm) {}
   double distance_mm(Vec3 p) const noexcept override {
     const Vec3 q = frame_.local(p);
     const double r = std::sqrt(q.x * q.x + q.y * q.y), z = q.z;
-    const std::array<Vec3, 4> corner{{{0, 0, 0}, {low_, 0, 0}, {top_, height_, 0}, {0, height_, 0}}};
+    const std::array<Vec3, 4> corner{
+        {{0, 0, 0}, {low_, 0, 0}, {top_, height_, 0}, {0, height_, 0}}};
     double nearest = 1e300;
-    for (std::size_t i = 0; i < 3; ++i) nearest = std::min(nearest, segment_distance({r, z, 0}, corner[i], corner[i + 1]));
-    const double side = (r - low_) * height_ - (top_ - low_) * z;  // sign of being outside the slanted wall
+    for (std::size_t i = 0; i < 3; ++i)
+      nearest = std::min(nearest, segment_distance({r, z, 0}, corner[i], corner[i + 1]));
+    const double side =
+        (r - low_) * height_ - (top_ - low_) * z;  // sign of being outside the slanted wall
     return z > 0 && z < height_ && side < 0 ? -nearest : nearest;
   }
   std::uint64_t pieces() const noexcept override { return 3; }
@@ -56,11 +60,16 @@ class CanalCones final : public Shape {
 
 }  // namespace
 
-std::unique_ptr<Shape> body_cylinder(const ShapeSpec& spec, ShapeMaker&, const Message&) { return std::make_unique<Frustum>(spec, spec.radius_mm); }
+std::unique_ptr<Shape> body_cylinder(const ShapeSpec& spec, ShapeMaker&, const Message&) {
+  return std::make_unique<Frustum>(spec, spec.radius_mm);
+}
 
-std::unique_ptr<Shape> body_cone(const ShapeSpec& spec, ShapeMaker&, const Message&) { return std::make_unique<Frustum>(spec, spec.top_radius_mm); }
+std::unique_ptr<Shape> body_cone(const ShapeSpec& spec, ShapeMaker&, const Message&) {
+  return std::make_unique<Frustum>(spec, spec.top_radius_mm);
+}
 
-std::unique_ptr<Shape> body_canal_cone(const ShapeSpec& spec, ShapeMaker& maker, const Message& where) {
+std::unique_ptr<Shape> body_canal_cone(const ShapeSpec& spec, ShapeMaker& maker,
+                                       const Message& where) {
   constexpr double k_out_of_any_tooth_mm = 60;
   const SinCos taper = det_sincos(spec.taper_deg * k_pi / 180);
   const Tooth& tooth = maker.tooth();
@@ -69,9 +78,11 @@ std::unique_ptr<Shape> body_canal_cone(const ShapeSpec& spec, ShapeMaker& maker,
   std::string found;
   const auto mouths = canal_mouths(tooth, spec.tissue, where);
   if (mouths.empty())
-    throw Error(where, msg("no canal leaves the {} of '{}'", spec.tissue, tooth.name), msg("choose a tooth with canals, or another shape"));
+    throw Error(where, msg("no canal leaves the {} of '{}'", spec.tissue, tooth.name),
+                msg("choose a tooth with canals, or another shape"));
   for (const CanalMouth& mouth : mouths) {
-    found += fmt::format("{}{}, {}, {}]", found.empty() ? "[" : ", [", fixed(mouth.at_mm.x, 2), fixed(mouth.at_mm.y, 2), fixed(mouth.at_mm.z, 2));
+    found += fmt::format("{}{}, {}, {}]", found.empty() ? "[" : ", [", fixed(mouth.at_mm.x, 2),
+                         fixed(mouth.at_mm.y, 2), fixed(mouth.at_mm.z, 2));
     const Vec3 off = mouth.at_mm - middle;
     if (spec.canals_x * off.x < 0 || spec.canals_y * off.y < 0) continue;
     ShapeSpec cone = spec;
@@ -81,8 +92,10 @@ std::unique_ptr<Shape> body_canal_cone(const ShapeSpec& spec, ShapeMaker& maker,
     all->add(cone, cone.radius_mm + cone.height_mm * taper.sin / taper.cos);
   }
   if (all->empty())
-    throw Error(where, msg("no canal lies on that side of the chamber's middle; the mouths are at {} mm", found),
-                msg("choose another side in 'canals', or \"all\""));
+    throw Error(
+        where,
+        msg("no canal lies on that side of the chamber's middle; the mouths are at {} mm", found),
+        msg("choose another side in 'canals', or \"all\""));
   return all;
 }
 

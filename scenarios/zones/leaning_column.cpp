@@ -20,8 +20,11 @@ constexpr double k_pad_mm = 0.1;
 /// A shape that stands upright in a frame.
 class InFrame final : public Shape {
  public:
-  InFrame(const ShapeFrame& frame, std::unique_ptr<Shape> inner) : frame_(frame), inner_(std::move(inner)) {}
-  double distance_mm(Vec3 p) const noexcept override { return inner_->distance_mm(frame_.local(p)); }
+  InFrame(const ShapeFrame& frame, std::unique_ptr<Shape> inner)
+      : frame_(frame), inner_(std::move(inner)) {}
+  double distance_mm(Vec3 p) const noexcept override {
+    return inner_->distance_mm(frame_.local(p));
+  }
   std::uint64_t pieces() const noexcept override { return inner_->pieces(); }
 
  private:
@@ -36,7 +39,8 @@ double mean_along(const Polyline& line, Vec3 way) {
 }
 
 /// Of the leaves of a tissue that count, by their centres in a frame; empty where it has none.
-Bounds tissue_box(const Octree& tree, const ShapeFrame& frame, std::uint8_t id, const auto& counts) {
+Bounds tissue_box(const Octree& tree, const ShapeFrame& frame, std::uint8_t id,
+                  const auto& counts) {
   Bounds box;
   if (id == k_air) return box;
   tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
@@ -63,13 +67,18 @@ ColumnMap columns_over(const Bounds& box, double leaf_mm) {
 }  // namespace
 
 ShapeFrame lingual_way(const Tooth& tooth, const Landmarks& landmarks, const Message& where) {
-  if (landmarks.incisal_edge_mm.empty() || landmarks.neck_mm.empty() || landmarks.canal_mouths.empty())
-    throw Error(where, msg("no incisal edge, neck or canal is found on '{}', so no way in from lingual", tooth.name),
-                msg("look at `cavum tooth landmarks`, or draw a prism (data/scenarios/incisor_access.toml)"));
+  if (landmarks.incisal_edge_mm.empty() || landmarks.neck_mm.empty() ||
+      landmarks.canal_mouths.empty())
+    throw Error(
+        where,
+        msg("no incisal edge, neck or canal is found on '{}', so no way in from lingual",
+            tooth.name),
+        msg("look at `cavum tooth landmarks`, or draw a prism (data/scenarios/incisor_access.toml)"));
   const Octree& tree = tooth.octree;
   const Vec3 axis = landmarks.long_axis.occlusal, mouth = landmarks.canal_mouths[0].at_mm;
   const Vec3 lingual = normalized(Vec3{0, -1, 0} + axis * axis.y);
-  const double edge = mean_along(landmarks.incisal_edge_mm, axis), neck = dot(*furthest_along(landmarks.neck_mm, lingual), axis);
+  const double edge = mean_along(landmarks.incisal_edge_mm, axis),
+               neck = dot(*furthest_along(landmarks.neck_mm, lingual), axis);
   Vec3 entry = mouth + axis * (0.5 * (edge + neck) - dot(mouth, axis));
   const double step = 0.5 * tree.leaf_mm();
   const auto inside = [&](Vec3 p) {
@@ -81,14 +90,17 @@ ShapeFrame lingual_way(const Tooth& tooth, const Landmarks& landmarks, const Mes
   way.at = mouth;
   way.z = normalized(entry - mouth);
   if (!(dot(way.z, axis) >= k_min_cosine) || !(way.z.z >= k_min_cosine))
-    throw Error(where, msg("the way from the canal through the lingual surface leans by more than 45 degrees"),
-                msg("look at `cavum tooth landmarks`, or draw a prism (data/scenarios/incisor_access.toml)"));
+    throw Error(
+        where,
+        msg("the way from the canal through the lingual surface leans by more than 45 degrees"),
+        msg("look at `cavum tooth landmarks`, or draw a prism (data/scenarios/incisor_access.toml)"));
   way.x = normalized(Vec3{1, 0, 0} - way.z * way.z.x);
   way.y = cross(way.z, way.x);
   return way;
 }
 
-TissueRelief relief_along(const Tooth& tooth, const ShapeFrame& frame, const std::string& tissue, TissuePart part, const Message& where) {
+TissueRelief relief_along(const Tooth& tooth, const ShapeFrame& frame, const std::string& tissue,
+                          TissuePart part, const Message& where) {
   const Octree& tree = tooth.octree;
   const double leaf = tree.leaf_mm();
   std::uint8_t id = k_air;
@@ -97,7 +109,8 @@ TissueRelief relief_along(const Tooth& tooth, const ShapeFrame& frame, const std
   const auto counts = [&](Vec3 p) { return part == TissuePart::all || p.z >= frame.at.z; };
   const Bounds box = tissue_box(tree, frame, id, counts);
   if (box.low.x > box.high.x)
-    throw Error(where, msg("the tooth '{}' has no {} along the way in", tooth.name, tissue), msg("choose a tooth with it, or another zone"));
+    throw Error(where, msg("the tooth '{}' has no {} along the way in", tooth.name, tissue),
+                msg("choose a tooth with it, or another zone"));
   const ColumnMap base = columns_over(box, leaf);
   TissueRelief relief(base);
   Octree::Cursor cursor;
@@ -128,8 +141,10 @@ TissueRelief relief_along(const Tooth& tooth, const ShapeFrame& frame, const std
   return relief;
 }
 
-std::unique_ptr<Shape> leaning_column(const Tooth& tooth, const ShapeSpec& spec, const ShapeFrame& way, const Message& where, ZoneWork& work) {
-  const TissueRelief shadow = relief_along(tooth, way, spec.outline.tissue, spec.outline.part, where);
+std::unique_ptr<Shape> leaning_column(const Tooth& tooth, const ShapeSpec& spec,
+                                      const ShapeFrame& way, const Message& where, ZoneWork& work) {
+  const TissueRelief shadow =
+      relief_along(tooth, way, spec.outline.tissue, spec.outline.part, where);
   const TissueRelief part = relief_along(tooth, way, spec.bottom.tissue, spec.bottom.part, where);
   const bool roof = spec.bottom.kind == BottomSpec::Kind::tissue_roof;
   auto outline = make_outline(spec.outline, {}, &shadow);
@@ -137,7 +152,9 @@ std::unique_ptr<Shape> leaning_column(const Tooth& tooth, const ShapeSpec& spec,
   for (double& z : bottom.value) z -= spec.bottom.deeper_mm;
   work.steps(bottom.value.size(), outline->pieces());
   const double outline_z = (roof ? part.highest_mm : part.lowest_mm) - spec.bottom.deeper_mm;
-  return std::make_unique<InFrame>(way, std::make_unique<Column>(std::move(outline), std::move(bottom), spec.taper_deg, outline_z));
+  return std::make_unique<InFrame>(
+      way,
+      std::make_unique<Column>(std::move(outline), std::move(bottom), spec.taper_deg, outline_z));
 }
 
 }  // namespace cavum::scenarios

@@ -17,9 +17,10 @@ class Outline {
   [[nodiscard]] virtual std::uint64_t pieces() const noexcept { return 1; }
 };
 
-/// `centre` is added to the points (spec.centre_mm is not looked at). `shadow` is needed for a projection only;
-/// a fissure must have been placed (placed.h).
-[[nodiscard]] std::unique_ptr<Outline> make_outline(const OutlineSpec& spec, Vec3 centre, const TissueRelief* shadow);
+/// `centre` is added to the points (spec.centre_mm is not looked at). `shadow` is needed for a
+/// projection only; a fissure must have been placed (placed.h).
+[[nodiscard]] std::unique_ptr<Outline> make_outline(const OutlineSpec& spec, Vec3 centre,
+                                                    const TissueRelief* shadow);
 
 /// Distance of point `p` from the segment `a`-`b`; z counts too.
 [[nodiscard]] double segment_distance(Vec3 p, Vec3 a, Vec3 b) noexcept;

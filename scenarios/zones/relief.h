@@ -1,5 +1,5 @@
-// The tooth seen from above: how high its surface stands, and where a tissue's roof and floor lie. From
-// it come the zones that follow the tissue, so that one scenario fits any tooth.
+// The tooth seen from above: how high its surface stands, and where a tissue's roof and floor lie.
+// From it come the zones that follow the tissue, so that one scenario fits any tooth.
 #pragma once
 
 #include <cstdint>
@@ -30,14 +30,16 @@ struct ColumnMap {
 
 /// Part of a tissue, column by column. Heights are those of leaf faces, mm.
 struct TissueRelief {
-  ColumnMap roof_mm, floor_mm;       ///< of the part; outside its shadow those of the nearest column, smoothed
+  ColumnMap roof_mm,
+      floor_mm;  ///< of the part; outside its shadow those of the nearest column, smoothed
   std::vector<std::uint8_t> shadow;  ///< 1 where the part lies below this column
   double lowest_mm = 0.0;            ///< level where the part ends (the chamber: its floor)
   double highest_mm = 0.0;
   Vec3 middle_mm;  ///< centre of gravity
 
   /// Of no column yet.
-  explicit TissueRelief(const ColumnMap& columns) : roof_mm(columns), floor_mm(columns), shadow(columns.value.size(), 0) {}
+  explicit TissueRelief(const ColumnMap& columns)
+      : roof_mm(columns), floor_mm(columns), shadow(columns.value.size(), 0) {}
   /// Roof and floor beside the shadow, of those in it; then smoothed.
   void go_on_beside_shadow();
 };
@@ -49,19 +51,24 @@ inline constexpr double k_no_tooth_mm = -1e6;
 [[nodiscard]] int top_leaf(const ColumnMap& surface, const Octree& tree, int x, int y) noexcept;
 
 /// Throws Error when the tooth has no such tissue or no leaf of it. `where` names the asker.
-[[nodiscard]] TissueRelief tissue_relief(const Tooth& tooth, const std::string& tissue, TissuePart part, const Message& where);
+[[nodiscard]] TissueRelief tissue_relief(const Tooth& tooth, const std::string& tissue,
+                                         TissuePart part, const Message& where);
 
-/// Where a canal leaves the chamber: the middle of its mouth on the chamber's floor, and the radius of a circle of the mouth's area.
+/// Where a canal leaves the chamber: the middle of its mouth on the chamber's floor, and the radius
+/// of a circle of the mouth's area.
 struct CanalMouth {
   Vec3 at_mm;
   double radius_mm = 0.0;
 };
-/// The mouths of all canals of a tissue's chamber: the pieces of it just below the floor that are no ripple (0.02 mm2 or more, and 0.3 mm deep).
-/// None when nothing goes on below the chamber. Throws Error as tissue_relief does.
-[[nodiscard]] std::vector<CanalMouth> canal_mouths(const Tooth& tooth, const std::string& tissue, const Message& where);
+/// The mouths of all canals of a tissue's chamber: the pieces of it just below the floor that are
+/// no ripple (0.02 mm2 or more, and 0.3 mm deep). None when nothing goes on below the chamber.
+/// Throws Error as tissue_relief does.
+[[nodiscard]] std::vector<CanalMouth> canal_mouths(const Tooth& tooth, const std::string& tissue,
+                                                   const Message& where);
 
-/// Signed distance (mm, negative inside) to the edge of a set of columns, padded by `padding` columns on each
-/// side; accurate to half a leaf.
-[[nodiscard]] ColumnMap distance_to_edge(const ColumnMap& like, const std::vector<std::uint8_t>& inside, int padding);
+/// Signed distance (mm, negative inside) to the edge of a set of columns, padded by `padding`
+/// columns on each side; accurate to half a leaf.
+[[nodiscard]] ColumnMap distance_to_edge(const ColumnMap& like,
+                                         const std::vector<std::uint8_t>& inside, int padding);
 
 }  // namespace cavum::scenarios

@@ -11,7 +11,7 @@
 #include "engine/base/det_math.h"
 #include "engine/base/error.h"
 #include "engine/base/text.h"
-#include "engine/tooth/beside.h"
+#include "engine/tooth/adjacent.h"
 #include "engine/tooth/octree_edit.h"
 #include "scenarios/zones/tissue_body.h"
 
@@ -20,7 +20,9 @@ namespace {
 
 class Combined final : public Shape {
  public:
-  void add(ShapeSpec::Combine how, std::unique_ptr<Shape> shape) { parts_.emplace_back(how, std::move(shape)); }
+  void add(ShapeSpec::Combine how, std::unique_ptr<Shape> shape) {
+    parts_.emplace_back(how, std::move(shape));
+  }
   double distance_mm(Vec3 p) const noexcept override {
     double d = 1e3;
     for (const auto& [how, shape] : parts_) {
@@ -60,7 +62,8 @@ ShapeFrame shape_frame(const ShapeSpec& s) {
   ShapeFrame f;
   f.at = s.at_mm;
   f.z = s.axis;
-  const Vec3 x0 = std::fabs(f.z.x) < 0.9 ? normalized(Vec3{1, 0, 0} - f.z * f.z.x) : normalized(Vec3{0, 1, 0} - f.z * f.z.y);
+  const Vec3 x0 = std::fabs(f.z.x) < 0.9 ? normalized(Vec3{1, 0, 0} - f.z * f.z.x)
+                                         : normalized(Vec3{0, 1, 0} - f.z * f.z.y);
   const Vec3 y0 = cross(f.z, x0);
   const SinCos turn = det_sincos(s.turn_deg * k_pi / 180);
   f.x = x0 * turn.cos + y0 * turn.sin;
@@ -68,14 +71,17 @@ ShapeFrame shape_frame(const ShapeSpec& s) {
   return f;
 }
 
-FilePlace place_text(const std::string& file, const ShapeSpec& spec) { return {file, spec.line, spec.column}; }
+FileLocation location_text(const std::string& file, const ShapeSpec& spec) {
+  return {file, spec.line, spec.column};
+}
 
 struct ShapeMaker::Cache {
   std::optional<Tooth> own;  // where something stands beside the tooth
   std::optional<ColumnMap> surface;
   std::optional<Landmarks> landmarks;
   std::map<std::pair<std::string, bool>, TissueRelief> relief;
-  std::map<std::pair<int, int>, Vec3> way_in;  // that bodies take from landmarks, by their place in the file
+  std::map<std::pair<int, int>, Vec3>
+      way_in;  // that bodies take from landmarks, by their place in the file
 };
 
 ShapeMaker::ShapeMaker(const Tooth& tooth, std::string where, std::optional<Landmarks> landmarks)
@@ -85,13 +91,13 @@ ShapeMaker::ShapeMaker(const Tooth& tooth, std::string where, std::optional<Land
 ShapeMaker::~ShapeMaker() = default;
 
 const Tooth& ShapeMaker::own() {
-  if (!has_beside(tooth_)) return tooth_;
+  if (!has_adjacent(tooth_)) return tooth_;
   if (!cache_->own) cache_->own = own_tooth(tooth_);
   return *cache_->own;
 }
 
 std::unique_ptr<Shape> ShapeMaker::beside(IVec3 low, IVec3 high) {
-  const TissueSet tissues = tissues_beside(tooth_);
+  const TissueSet tissues = adjacent_tissues(tooth_);
   const LeafRange asked{low, high};
   if (!any_within(tooth_.octree, tissues, asked)) return nullptr;
   return tissue_body(tooth_, tissues, -1e9, 0.0, work_, asked);
@@ -107,7 +113,9 @@ const Landmarks& ShapeMaker::landmarks() {
   return *cache_->landmarks;
 }
 
-void ShapeMaker::set_way_in(const ShapeSpec& spec, Vec3 way) { cache_->way_in[{spec.line, spec.column}] = way; }
+void ShapeMaker::set_way_in(const ShapeSpec& spec, Vec3 way) {
+  cache_->way_in[{spec.line, spec.column}] = way;
+}
 
 Vec3 ShapeMaker::way_in(const ShapeSpec& spec) const {
   const auto told = cache_->way_in.find({spec.line, spec.column});
@@ -116,14 +124,18 @@ Vec3 ShapeMaker::way_in(const ShapeSpec& spec) const {
 
 std::unique_ptr<Shape> ShapeMaker::make(const std::vector<ShapeSpec>& list) {
   auto all = std::make_unique<Combined>();
-  for (const auto& spec : list) all->add(spec.combine, k_bodies[static_cast<std::size_t>(spec.kind)](spec, *this, place_text(where_, spec)));
+  for (const auto& spec : list)
+    all->add(spec.combine, k_bodies[static_cast<std::size_t>(spec.kind)](
+                               spec, *this, location_text(where_, spec)));
   return all;
 }
 
-const TissueRelief& ShapeMaker::relief(const std::string& tissue, TissuePart part, const Message& where) {
+const TissueRelief& ShapeMaker::relief(const std::string& tissue, TissuePart part,
+                                       const Message& where) {
   const std::pair<std::string, bool> key{tissue, part == TissuePart::chamber};
   auto found = cache_->relief.find(key);
-  if (found == cache_->relief.end()) found = cache_->relief.emplace(key, tissue_relief(tooth_, tissue, part, where)).first;
+  if (found == cache_->relief.end())
+    found = cache_->relief.emplace(key, tissue_relief(tooth_, tissue, part, where)).first;
   return found->second;
 }
 

@@ -1,5 +1,6 @@
-// The surface of a target on a box of leaves: from what the shape says at each leaf's centre to the nearest place on its surface.
-// A shape's own value is a true distance only near the surface (shape.h); the nearest place makes it one everywhere.
+// The surface of a target on a box of leaves: from what the shape says at each leaf's centre to the
+// nearest place on its surface. A shape's own value is a true distance only near the surface
+// (shape.h); the nearest place makes it one everywhere.
 #pragma once
 
 #include <cstdint>
@@ -27,23 +28,29 @@ struct ShapeField {
 
   /// From one leaf to the next along y and along z.
   [[nodiscard]] std::size_t row() const noexcept { return static_cast<std::size_t>(size.x); }
-  [[nodiscard]] std::size_t layer() const noexcept { return row() * static_cast<std::size_t>(size.y); }
+  [[nodiscard]] std::size_t layer() const noexcept {
+    return row() * static_cast<std::size_t>(size.y);
+  }
   [[nodiscard]] std::size_t index(IVec3 c) const noexcept {
-    return static_cast<std::size_t>(c.x) + static_cast<std::size_t>(c.y) * row() + static_cast<std::size_t>(c.z) * layer();
+    return static_cast<std::size_t>(c.x) + static_cast<std::size_t>(c.y) * row() +
+           static_cast<std::size_t>(c.z) * layer();
   }
 };
 
 /// The place on the target's surface that is nearest to a leaf's centre.
-struct NearestPlace {
+struct NearestPoint {
   float x = 0, y = 0, z = 0;  ///< leaves, from the centre of the box's first leaf
   Wall wall = Wall::opening;  ///< of the surface's own normal there
   bool found = false;         ///< there is a surface in the box
-  [[nodiscard]] Vec3 at() const { return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)}; }
+  [[nodiscard]] Vec3 at() const {
+    return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
+  }
 };
 
-/// For every leaf of the box. Two places are tried and the nearer one counts: that of the nearest leaf across the surface, and the foot of the
-/// perpendicular on the surface's tangent there. Both are put on the surface by the shape's own value, so neither is a leaf's raster.
-/// Walls are told as seen from `facing`.
-[[nodiscard]] std::vector<NearestPlace> nearest_places(const ShapeField& shape, Facing facing = {});
+/// For every leaf of the box. Two places are tried and the nearer one counts: that of the nearest
+/// leaf across the surface, and the foot of the perpendicular on the surface's tangent there. Both
+/// are put on the surface by the shape's own value, so neither is a leaf's raster. Walls are told
+/// as seen from `facing`.
+[[nodiscard]] std::vector<NearestPoint> nearest_points(const ShapeField& shape, Facing facing = {});
 
 }  // namespace cavum::scenarios

@@ -1,4 +1,5 @@
-// Replaces operator new of a test program, so that a thread can count what it allocates. In one source of a program only.
+// Replaces operator new of a test program, so that a thread can count what it allocates. In one
+// source of a program only.
 #pragma once
 
 #include <cstdlib>

@@ -44,10 +44,18 @@ using cavum::testing_allocation::refused;
 extern "C" {
 
 void* malloc(size_t size) noexcept { return refused() ? nullptr : __libc_malloc(size); }
-void* calloc(size_t n, size_t size) noexcept { return refused() ? nullptr : __libc_calloc(n, size); }
-void* realloc(void* p, size_t size) noexcept { return refused() ? nullptr : __libc_realloc(p, size); }
-void* memalign(size_t alignment, size_t size) noexcept { return refused() ? nullptr : __libc_memalign(alignment, size); }
-void* aligned_alloc(size_t alignment, size_t size) noexcept { return refused() ? nullptr : __libc_memalign(alignment, size); }
+void* calloc(size_t n, size_t size) noexcept {
+  return refused() ? nullptr : __libc_calloc(n, size);
+}
+void* realloc(void* p, size_t size) noexcept {
+  return refused() ? nullptr : __libc_realloc(p, size);
+}
+void* memalign(size_t alignment, size_t size) noexcept {
+  return refused() ? nullptr : __libc_memalign(alignment, size);
+}
+void* aligned_alloc(size_t alignment, size_t size) noexcept {
+  return refused() ? nullptr : __libc_memalign(alignment, size);
+}
 int posix_memalign(void** out, size_t alignment, size_t size) noexcept {
   void* p = refused() ? nullptr : __libc_memalign(alignment, size);
   if (p == nullptr) return ENOMEM;

@@ -1,5 +1,5 @@
-// Memory that runs out at the n-th request, once: malloc, calloc, realloc and the aligned ones of this whole program, and so `new`, SQLite, libsodium
-// and zstd.
+// Memory that runs out at the n-th request, once: malloc, calloc, realloc and the aligned ones of
+// this whole program, and so `new`, SQLite, libsodium and zstd.
 #pragma once
 
 #include <cstdint>

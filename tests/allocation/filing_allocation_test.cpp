@@ -1,6 +1,8 @@
-// Memory runs out once, at every request in turn, while an exam is filed. Each time there is a clear error and the ledger is what it was, or the exam
-// is filed as without it; never a crash, and never a finding against the candidate. Afterwards the same exam is filed. CAVUM_ALLOCATION_EVERY says at
-// each how many'th request (1: all of them); which ones are drawn, CAVUM_TEST_SEED repeats them.
+// Memory runs out once, at every request in turn, while an exam is filed. Each time there is a
+// clear error and the ledger is what it was, or the exam is filed as without it; never a crash, and
+// never a finding against the candidate. Afterwards the same exam is filed. CAVUM_ALLOCATION_EVERY
+// says at each how many'th request (1: all of them); which ones are drawn, CAVUM_TEST_SEED repeats
+// them.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -34,13 +36,14 @@ class FilingWithoutMemory : public testing::Test {
     before_ = texts_of(records::read_ledger(school_->places()));
   }
 
-  /// One filing, as `cavum ledger add` does it, with the n-th request refused. What is wrong, in words; the requests that there were.
+  /// One filing, as `cavum ledger add` does it, with the n-th request refused. What is wrong, in
+  /// words; the requests that there were.
   std::pair<std::string, std::uint64_t> file_once(std::uint64_t n) {
     const School copy(*school_);
     const std::string exam = copy.file("short.cavum");
     std::string said;
     std::optional<records::Filing> filing;
-    const records::LedgerPlaces places = copy.places();
+    const records::LedgerPaths places = copy.places();
     const std::string folder = copy.ledger_folder();
     keep_memory_reserve();
     testing_allocation::begin_counting(n);
@@ -57,21 +60,32 @@ class FilingWithoutMemory : public testing::Test {
     }
     const std::uint64_t requests = testing_allocation::end_counting();
     const std::string at = "request " + std::to_string(n) + ": ";
-    if (filing && !filing->findings.empty()) return {at + "a sound exam is refused: " + english_text(filing->findings[0].message()), requests};
-    if (!filing && said.find("; ") == std::string::npos) return {at + "does not say what to do: " + said, requests};
-    if (!filing && said.find("memory") == std::string::npos) return {at + "does not say that memory is short: " + said, requests};
+    if (filing && !filing->findings.empty())
+      return {at + "a sound exam is refused: " + english_text(filing->findings[0].message()),
+              requests};
+    if (!filing && said.find("; ") == std::string::npos)
+      return {at + "does not say what to do: " + said, requests};
+    if (!filing && said.find("memory") == std::string::npos)
+      return {at + "does not say that memory is short: " + said, requests};
     const records::LedgerCheck check = records::check_ledger(places, false);
-    if (!check.findings.empty()) return {at + "the ledger does not hold: " + english_text(check.findings[0].message()) + " (" + said + ")", requests};
+    if (!check.findings.empty())
+      return {at + "the ledger does not hold: " + english_text(check.findings[0].message()) + " (" +
+                  said + ")",
+              requests};
     auto now = texts_of(records::read_ledger(places));
-    if (!filing && now != before_) return {at + "the ledger was changed, and yet: " + said, requests};
+    if (!filing && now != before_)
+      return {at + "the ledger was changed, and yet: " + said, requests};
     if (!filing) {
       keep_memory_reserve();  // the next program
       records::Ledger ledger(folder, records::load_school_key(records::school_key_path()));
       const records::Filing again = records::file_session(ledger, exam, {}, grounds_);
-      if (!again.seq) return {at + "afterwards it cannot be filed: " + english_text(again.findings[0].message()), requests};
+      if (!again.seq)
+        return {at + "afterwards it cannot be filed: " + english_text(again.findings[0].message()),
+                requests};
       now = texts_of(records::read_ledger(places));
     }
-    if (now.size() != before_.size() + 1 || !records::check_ledger(places, false).findings.empty()) return {at + "it was not filed", requests};
+    if (now.size() != before_.size() + 1 || !records::check_ledger(places, false).findings.empty())
+      return {at + "it was not filed", requests};
     return {"", requests};
   }
 
@@ -85,7 +99,9 @@ TEST_F(FilingWithoutMemory, SaysSoAndLeavesTheLedgerAsItWas) {
   const auto [wrong, requests] = file_once(0);
   ASSERT_EQ(wrong, "");
   const char* asked = std::getenv("CAVUM_ALLOCATION_EVERY");
-  const std::uint64_t wanted = asked != nullptr ? std::strtoull(asked, nullptr, 10) : std::getenv("CAVUM_DEEP") != nullptr ? 1 : requests / 40;
+  const std::uint64_t wanted = asked != nullptr ? std::strtoull(asked, nullptr, 10)
+                               : std::getenv("CAVUM_DEEP") != nullptr ? 1
+                                                                      : requests / 40;
   const std::uint64_t every = std::max<std::uint64_t>(1, wanted);
   Random random(test::drawn_seed("filing without memory"));
   const std::uint64_t first = 1 + random.below(every);
@@ -102,7 +118,8 @@ TEST_F(FilingWithoutMemory, SaysSoAndLeavesTheLedgerAsItWas) {
       for (std::uint64_t k = n, i = 0; k <= requests && i < 200; k += every, ++i) {
         out << "at " << k << std::endl;
         try {
-          if (const std::string what = file_once(k).first; !what.empty()) out << "wrong " << what << std::endl;
+          if (const std::string what = file_once(k).first; !what.empty())
+            out << "wrong " << what << std::endl;
         } catch (const std::exception& e) {
           out << "wrong request " << k << ": afterwards " << e.what() << std::endl;
         }
@@ -116,10 +133,13 @@ TEST_F(FilingWithoutMemory, SaysSoAndLeavesTheLedgerAsItWas) {
       if (line.starts_with("at ")) n = std::stoull(line.substr(3)), ++tried;
       if (line.starts_with("wrong ") && ++failed <= 40) ADD_FAILURE() << line.substr(6);
     }
-    if (status != 0 && ++failed <= 40) ADD_FAILURE() << "request " << n << ": the program ended, status " << status;
+    if (status != 0 && ++failed <= 40)
+      ADD_FAILURE() << "request " << n << ": the program ended, status " << status;
   }
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-  std::cout << tried << " of " << requests << " tried in " << seconds << " s, " << failed << " findings\n";
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  std::cout << tried << " of " << requests << " tried in " << seconds << " s, " << failed
+            << " findings\n";
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
-// What grading costs: time beyond loading, and memory, for one recorded session. Also writes a motion of ten minutes to record one with.
-//   grade_bench --motion F.csv        strokes over the molar's crown for 600 s, layer by layer down to 3.5 mm
-//   grade_bench SESSION.cavum [RUNS]  5 runs, the best one counts
+// What grading costs: time beyond loading, and memory, for one recorded session. Also writes a
+// motion of ten minutes to record one with.
+//   grade_bench --motion F.csv        strokes over the molar's crown for 600 s, layer by layer down
+//   to 3.5 mm grade_bench SESSION.cavum [RUNS]  5 runs, the best one counts
 #include <sys/resource.h>
 
 #include <chrono>
@@ -16,7 +17,9 @@
 
 namespace {
 
-double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 /// Time that this program had of the processor: waiting for other programs does not count.
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 double peak_mb() {
@@ -32,7 +35,8 @@ void write_motion(const char* path) {
   for (int i = 0; i <= 60000; ++i) {
     const double t = i * 0.01, layer = 3.3 - 5.3 * t / 600;
     const double x = 1.8 * std::sin(2.1 * t), y = 1.4 * std::sin(0.37 * t);
-    std::snprintf(line, sizeof line, "%.3f,%.4f,%.4f,%.4f,1,0,0,0,%d\n", t, x, y, layer, t > 0.5 && t < 599.5 ? 1 : 0);
+    std::snprintf(line, sizeof line, "%.3f,%.4f,%.4f,%.4f,1,0,0,0,%d\n", t, x, y, layer,
+                  t > 0.5 && t < 599.5 ? 1 : 0);
     out << line;
   }
 }
@@ -63,12 +67,15 @@ int main(int argc, char** argv) {
       best = std::min(best, seconds() - from);
       best_cpu = std::min(best_cpu, cpu_seconds() - cpu);
     }
-    std::printf("%.1f s of exam, leaf %.3f mm, %zu leaves removed (%.2f mm3)\n", static_cast<double>(session->inputs.size()) * 0.001, result.leaf_mm,
+    std::printf("%.1f s of exam, leaf %.3f mm, %zu leaves removed (%.2f mm3)\n",
+                static_cast<double>(session->inputs.size()) * 0.001, result.leaf_mm,
                 session->removed.size(), result.volumes.removed.mm3);
-    std::printf("load  %.2f s, peak %.0f MB\ngrade %.3f s, of it %.3f s on the processor (best run), peak %.0f MB\n", loaded - start, loaded_mb, best,
-                best_cpu, peak_mb());
+    std::printf(
+        "load  %.2f s, peak %.0f MB\ngrade %.3f s, of it %.3f s on the processor (best run), peak %.0f MB\n",
+        loaded - start, loaded_mb, best, best_cpu, peak_mb());
     const bool ok = best_cpu <= 1.0 && peak_mb() <= 500;
-    std::printf("limits: grade <= 1 s beyond loading, memory <= 500 MB: %s\n", ok ? "kept" : "NOT KEPT");
+    std::printf("limits: grade <= 1 s beyond loading, memory <= 500 MB: %s\n",
+                ok ? "kept" : "NOT KEPT");
     return ok ? 0 : 1;
   } catch (const cavum::Error& e) {
     std::fprintf(stderr, "%s\n", e.what());

@@ -1,4 +1,5 @@
-// What carving costs at three leaves: a ball out of a solid block, and a head that drills on by a quarter leaf.
+// What carving costs at three leaves: a ball out of a solid block, and a head that drills on by a
+// quarter leaf.
 //   octree_bench [any]   with an argument the leaf of 0.05 mm alone, for profilers
 #include <cstdio>
 
@@ -68,6 +69,7 @@ int main(int argc, char**) {
     const double half = carve_ball_us(block, 0.25, &small), one = carve_ball_us(block, 0.5, &large);
     std::printf(
         "leaf %.3f mm: ball of 0.5 mm diameter %7.1f us (%zu leaves), of 1.0 mm %7.1f us (%zu leaves); round-1.0 drills on by 1/4 leaf: %6.1f us\n",
-        leaf, half, small, one, large, drill_on_us(block, testing_engine::shipped_bur("round-1.0")));
+        leaf, half, small, one, large,
+        drill_on_us(block, testing_engine::shipped_bur("round-1.0")));
   }
 }

@@ -1,5 +1,6 @@
-// What the surface for the eye costs: made whole, and again where a ball of 0.5 mm was cut into the molar. Prints triangles, memory, and the time of
-// a remesh (leaves taken from the octree, patches made anew) beside that of a whole one in the same run.
+// What the surface for the eye costs: made whole, and again where a ball of 0.5 mm was cut into the
+// molar. Prints triangles, memory, and the time of a remesh (leaves taken from the octree, patches
+// made anew) beside that of a whole one in the same run.
 //   remesh_bench [TOOTH.cvt] [CUTS]
 #include <algorithm>
 #include <cstdio>
@@ -25,7 +26,8 @@ double share(std::vector<double> v, double of) {
 }
 
 void print(const char* what, const std::vector<double>& us) {
-  std::printf("%-46s median %8.0f us   p99 %8.0f us   worst %8.0f us\n", what, share(us, 0.5), share(us, 0.99), share(us, 1.0));
+  std::printf("%-46s median %8.0f us   p99 %8.0f us   worst %8.0f us\n", what, share(us, 0.5),
+              share(us, 0.99), share(us, 1.0));
 }
 
 void run(Tooth tooth, int cuts) {
@@ -49,13 +51,17 @@ void run(Tooth tooth, int cuts) {
       if (hard.patch(p).vertices[v].position_mm[2] > 0) places.emplace_back(p, v);
   }
   std::printf("%s, leaf %.3f mm\n", tooth.name.c_str(), tree.leaf_mm());
-  std::printf("  hard tissue: %zu triangles, %zu vertices in %zu patches; octree %.1f MB\n", hard.triangle_count(), vertices, full,
+  std::printf("  hard tissue: %zu triangles, %zu vertices in %zu patches; octree %.1f MB\n",
+              hard.triangle_count(), vertices, full,
               1e-6 * static_cast<double>(tree.memory_bytes()));
-  std::printf("  enamel, dentin, pulp: %zu, %zu, %zu triangles\n", enamel.triangle_count(), dentin.triangle_count(), pulp.triangle_count());
-  std::printf("  whole: leaves copied %.0f us, hard tissue made %.0f us, three tissues %.0f us\n", copying, whole, tissues);
+  std::printf("  enamel, dentin, pulp: %zu, %zu, %zu triangles\n", enamel.triangle_count(),
+              dentin.triangle_count(), pulp.triangle_count());
+  std::printf("  whole: leaves copied %.0f us, hard tissue made %.0f us, three tissues %.0f us\n",
+              copying, whole, tissues);
   begin = thread_us();
   const TriangleMesh tetrahedra = surface_mesh(tooth, "solid");
-  std::printf("  by marching tetrahedra (surface_mesh): %zu triangles, %.0f us\n", tetrahedra.triangles.size(), thread_us() - begin);
+  std::printf("  by marching tetrahedra (surface_mesh): %zu triangles, %.0f us\n",
+              tetrahedra.triangles.size(), thread_us() - begin);
 
   Random random(7);
   std::vector<RemovedLeaf> removed;
@@ -86,13 +92,15 @@ void run(Tooth tooth, int cuts) {
     three_us.push_back(thread_us() - made);
     patches.push_back(static_cast<double>(touched.size()));
   }
-  std::printf("  %zu balls of 0.5 mm diameter at random places of the surface; %.0f patches touched in the median\n", take_us.size(),
-              share(patches, 0.5));
+  std::printf(
+      "  %zu balls of 0.5 mm diameter at random places of the surface; %.0f patches touched in the median\n",
+      take_us.size(), share(patches, 0.5));
   print("  leaves taken (octree must stand still)", take_us);
   print("  hard tissue made anew", hard_us);
   print("  both", both_us);
   print("  enamel, dentin and pulp besides", three_us);
-  std::printf("  a whole remesh costs %.0f times a cut's in the median\n", (copying + whole) / share(both_us, 0.5));
+  std::printf("  a whole remesh costs %.0f times a cut's in the median\n",
+              (copying + whole) / share(both_us, 0.5));
 }
 
 }  // namespace
@@ -101,5 +109,6 @@ void run(Tooth tooth, int cuts) {
 int main(int argc, char** argv) {
   using namespace cavum;
   const int cuts = argc > 2 ? std::atoi(argv[2]) : 400;
-  run(argc > 1 && std::string(argv[1]) != "molar" ? load_tooth_file(argv[1]) : make_molar({}), cuts);
+  run(argc > 1 && std::string(argv[1]) != "molar" ? load_tooth_file(argv[1]) : make_molar({}),
+      cuts);
 }

@@ -1,4 +1,5 @@
-// Simulated stations and their histories: how often the self-check calls a station changed that is not, and how often it finds a hidden change.
+// Simulated stations and their histories: how often the self-check calls a station changed that is
+// not, and how often it finds a hidden change.
 //     selfcheck_campaign [STATIONS_OF_EACH_FAMILY [SEED]]
 #include <algorithm>
 #include <cmath>
@@ -26,12 +27,14 @@ std::pair<double, double> interval(int hits, int of) {
 
 void print_share(const char* what, int hits, int of) {
   const auto [low, high] = interval(hits, of);
-  std::printf("  %s %d of %d = %.1f %% (%.1f to %.1f)", what, hits, of, of > 0 ? 100.0 * hits / of : 0.0, low, high);
+  std::printf("  %s %d of %d = %.1f %% (%.1f to %.1f)", what, hits, of,
+              of > 0 ? 100.0 * hits / of : 0.0, low, high);
 }
 
 struct Sum {
-  int stations = 0, too_few = 0, unchanged = 0, alarms = 0, doubtful = 0, friction = 0, friction_doubt = 0, gain_too = 0, gain = 0, gain_doubt = 0,
-      friction_too = 0, hands_unseen = 0;
+  int stations = 0, too_few = 0, unchanged = 0, alarms = 0, doubtful = 0, friction = 0,
+      friction_doubt = 0, gain_too = 0, gain = 0, gain_doubt = 0, friction_too = 0,
+      hands_unseen = 0;
   double longest_s = 0.0;
   std::map<std::string, int> causes, alarm_of;
 
@@ -56,8 +59,9 @@ struct Sum {
     if (!t.gain_cause.empty()) ++causes[t.gain_cause];
   }
   void print(const char* name) const {
-    std::printf("%s: %d stations, %d of them never learnt, longest check %.1f s, %d doubtful checks of stations that did not change\n", name,
-                stations, too_few, longest_s, doubtful);
+    std::printf(
+        "%s: %d stations, %d of them never learnt, longest check %.1f s, %d doubtful checks of stations that did not change\n",
+        name, stations, too_few, longest_s, doubtful);
     print_share("false alarms", alarms, unchanged);
     for (const auto& [what, n] : alarm_of) std::printf("; %s %d", what.c_str(), n);
     std::printf("\n");

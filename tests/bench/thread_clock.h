@@ -1,4 +1,5 @@
-// The clock of the benchmarks: time this thread has had the processor, so that others on the same machine do not count.
+// The clock of the benchmarks: time this thread has had the processor, so that others on the same
+// machine do not count.
 #pragma once
 
 #include <time.h>

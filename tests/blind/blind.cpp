@@ -1,9 +1,13 @@
-// The blind test of `cavum explain`: hides effects in recordings, asks the program, and compares afterwards.
-//   blind CAVUM --sample           one draw of each, mixed evenly, or the first --first of them; fails where rates are worse than promised or than
-//   measured before blind CAVUM --table            at least --draws (10) draws of each mechanism at sizes 1.0 and 0.35, and everything else blind
-//   CAVUM --table --only-simpler   the simpler methods alone, without asking the program blind CAVUM --case KIND NAME[,NAME] SIZE QUANTUM SEED
+// The blind test of `cavum explain`: hides effects in recordings, asks the program, and compares
+// afterwards.
+//   blind CAVUM --sample           one draw of each, mixed evenly, or the first --first of them;
+//   fails where rates are worse than promised or than measured before blind CAVUM --table at least
+//   --draws (10) draws of each mechanism at sizes 1.0 and 0.35, and everything else blind CAVUM
+//   --table --only-simpler   the simpler methods alone, without asking the program blind CAVUM
+//   --case KIND NAME[,NAME] SIZE QUANTUM SEED
 //   [--keep DIR]   one recording again
-// CAVUM_TEST_SEED repeats a run; without it the seed is drawn anew. Cases are the same for any number of --jobs.
+// CAVUM_TEST_SEED repeats a run; without it the seed is drawn anew. Cases are the same for any
+// number of --jobs.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -44,7 +48,8 @@ std::vector<Request> requests(Kind kind, int draws, Draw& draw) {
   for (int d = 0; d < draws; ++d) {
     switch (kind) {
       case Kind::single:
-        for (const std::string& name : mechanisms()) add({name}, 1.0), ++turn, add({name}, 0.35), ++turn;
+        for (const std::string& name : mechanisms())
+          add({name}, 1.0), ++turn, add({name}, 0.35), ++turn;
         ++turn;
         break;
       case Kind::pair:
@@ -75,15 +80,20 @@ std::vector<Request> plan(const Options& o, Draw& draw) {
     Request request;
   };
   std::vector<Placed> placed;
-  for (const Kind kind : {Kind::single, Kind::pair, Kind::clean, Kind::outside, Kind::crosshead, Kind::fault}) {
+  for (const Kind kind :
+       {Kind::single, Kind::pair, Kind::clean, Kind::outside, Kind::crosshead, Kind::fault}) {
     std::vector<Request> list = requests(kind, o.table ? o.draws : 1, draw);
     if (!o.only.empty())
-      std::erase_if(
-          list, [&](const Request& r) { return o.only != kind_name(kind) && std::find(r.names.begin(), r.names.end(), o.only) == r.names.end(); });
+      std::erase_if(list, [&](const Request& r) {
+        return o.only != kind_name(kind) &&
+               std::find(r.names.begin(), r.names.end(), o.only) == r.names.end();
+      });
     for (std::size_t i = 0; i < list.size(); ++i)
-      placed.push_back({(static_cast<double>(i) + draw.uniform()) / static_cast<double>(list.size()), list[i]});
+      placed.push_back(
+          {(static_cast<double>(i) + draw.uniform()) / static_cast<double>(list.size()), list[i]});
   }
-  std::stable_sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a.at < b.at; });
+  std::stable_sort(placed.begin(), placed.end(),
+                   [](const Placed& a, const Placed& b) { return a.at < b.at; });
   std::vector<Request> all;
   for (Placed& p : placed) all.push_back(std::move(p.request));
   if (o.first > 0 && o.first < all.size()) all.resize(o.first);
@@ -105,7 +115,8 @@ Outcome run(const Options& o, const Request& request, const std::filesystem::pat
   return outcome;
 }
 
-std::vector<Outcome> run_all(const Options& o, const std::vector<Request>& list, const std::filesystem::path& scratch) {
+std::vector<Outcome> run_all(const Options& o, const std::vector<Request>& list,
+                             const std::filesystem::path& scratch) {
   std::vector<Outcome> done;
   std::mutex guard;
   std::ofstream log;
@@ -125,25 +136,31 @@ std::vector<Outcome> run_all(const Options& o, const std::vector<Request>& list,
   return done;
 }
 
-/// Prints promise, measured before and today's count; true if today's is no evidence of a rate worse than both allow.
+/// Prints promise, measured before and today's count; true if today's is no evidence of a rate
+/// worse than both allow.
 bool hold(const std::vector<Outcome>& outcomes) {
   bool good = true;
-  std::printf("\nrate                                         promise  measured before   today       least at p = 0.001   (measured before: %s)\n",
-              k_measured_by);
+  std::printf(
+      "\nrate                                         promise  measured before   today       least at p = 0.001   (measured before: %s)\n",
+      k_measured_by);
   const std::vector<Rate> today = rates(outcomes);
   for (std::size_t i = 0; i < today.size(); ++i) {
     const Rate& r = today[i];
     const Counted before = k_measured[i];
-    const double measured = before.trials > 0 ? static_cast<double>(before.successes) / before.trials : 0.0;
-    // a count that chance explains (1 in 20) leaves the promise standing; otherwise what was measured is held
-    const bool is_short = before.trials > 0 && binomial_at_most(before.successes, before.trials, r.promise) < 0.05;
+    const double measured =
+        before.trials > 0 ? static_cast<double>(before.successes) / before.trials : 0.0;
+    // a count that chance explains (1 in 20) leaves the promise standing; otherwise what was
+    // measured is held
+    const bool is_short =
+        before.trials > 0 && binomial_at_most(before.successes, before.trials, r.promise) < 0.05;
     const double bound = is_short ? measured : r.promise;
     const int least = least_expected(r.trials, bound);
     const bool ok = r.successes >= least;
     good = good && ok;
     if (r.trials == 0) continue;  // not asked for today
-    std::printf("%-46s %5.2f %8d/%-4d %5.2f %6d/%-4d %5.2f %8d  %s%s\n", r.name.c_str(), r.promise, before.successes, before.trials, measured,
-                r.successes, r.trials, r.value(), least, ok ? "" : "WORSE",
+    std::printf("%-46s %5.2f %8d/%-4d %5.2f %6d/%-4d %5.2f %8d  %s%s\n", r.name.c_str(), r.promise,
+                before.successes, before.trials, measured, r.successes, r.trials, r.value(), least,
+                ok ? "" : "WORSE",
                 is_short               ? "  short of the promise"
                 : measured < r.promise ? "  below the promise, within chance"
                                        : "");
@@ -201,7 +218,8 @@ Options parse(int argc, char** argv) {
 Request request_of(const std::vector<std::string>& parts) {
   Request r;
   bool known = false;
-  for (const Kind kind : {Kind::single, Kind::pair, Kind::clean, Kind::outside, Kind::crosshead, Kind::fault})
+  for (const Kind kind :
+       {Kind::single, Kind::pair, Kind::clean, Kind::outside, Kind::crosshead, Kind::fault})
     if (parts[0] == kind_name(kind)) r.kind = kind, known = true;
   if (!known) throw std::invalid_argument("blind: no kind of recording is called " + parts[0]);
   for (std::size_t begin = 0; r.kind != Kind::clean && begin <= parts[1].size();) {
@@ -215,7 +233,9 @@ Request request_of(const std::vector<std::string>& parts) {
 
 int go(const Options& o) {
   const std::filesystem::path scratch =
-      o.keep.empty() ? std::filesystem::temp_directory_path() / ("cavum-blind-" + std::to_string(std::random_device{}())) : o.keep;
+      o.keep.empty() ? std::filesystem::temp_directory_path() /
+                           ("cavum-blind-" + std::to_string(std::random_device{}()))
+                     : o.keep;
   struct Remove {
     std::filesystem::path folder;
     ~Remove() {

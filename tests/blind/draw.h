@@ -1,4 +1,5 @@
-// Random draws of the blind test: splitmix64, with no code of the program under test and no <random>, so that a printed seed repeats everywhere.
+// Random draws of the blind test: splitmix64, with no code of the program under test and no
+// <random>, so that a printed seed repeats everywhere.
 #pragma once
 
 #include <cmath>
@@ -21,15 +22,21 @@ class Draw {
     return z ^ (z >> 31);
   }
   /// In [low, high).
-  double uniform(double low = 0.0, double high = 1.0) { return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1.0p-53); }
+  double uniform(double low = 0.0, double high = 1.0) {
+    return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1.0p-53);
+  }
   /// In [low, high), evenly on a logarithmic scale; both > 0.
-  double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
+  double log_uniform(double low, double high) {
+    return std::exp(uniform(std::log(low), std::log(high)));
+  }
   /// 0 .. count-1.
   std::size_t below(std::size_t count) { return static_cast<std::size_t>(bits() % count); }
   bool chance(double probability) { return uniform() < probability; }
   double sign() { return chance(0.5) ? 1.0 : -1.0; }
   /// Mean 0, standard deviation 1 (Box and Muller).
-  double normal() { return std::sqrt(-2.0 * std::log(1.0 - uniform())) * std::cos(6.283185307179586 * uniform()); }
+  double normal() {
+    return std::sqrt(-2.0 * std::log(1.0 - uniform())) * std::cos(6.283185307179586 * uniform());
+  }
   /// Student's t with 3 degrees of freedom, scaled to standard deviation 1.
   double heavy() {
     const double n = normal(), a = normal(), b = normal(), c = normal();

@@ -1,4 +1,5 @@
-// The generator of the blind test keeps its word: checked against closed forms and by reading the written file again.
+// The generator of the blind test keeps its word: checked against closed forms and by reading the
+// written file again.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,15 +16,17 @@ namespace {
 
 struct Folder {
   std::filesystem::path path =
-      std::filesystem::path(::testing::TempDir()) / ("cavum-blind-test-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
-                                                     ::testing::UnitTest::GetInstance()->current_test_info()->name());
+      std::filesystem::path(::testing::TempDir()) /
+      ("cavum-blind-test-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
+       ::testing::UnitTest::GetInstance()->current_test_info()->name());
   ~Folder() { std::filesystem::remove_all(path); }
 };
 
 TEST(BlindRate, BinomialTailsAreExact) {
   EXPECT_NEAR(binomial_at_most(1, 2, 0.5), 0.75, 1e-12);
   EXPECT_NEAR(binomial_at_most(0, 10, 0.1), std::pow(0.9, 10), 1e-12);
-  EXPECT_NEAR(binomial_at_most(8, 10, 0.9), 1.0 - 10 * std::pow(0.9, 9) * 0.1 - std::pow(0.9, 10), 1e-12);
+  EXPECT_NEAR(binomial_at_most(8, 10, 0.9), 1.0 - 10 * std::pow(0.9, 9) * 0.1 - std::pow(0.9, 10),
+              1e-12);
   EXPECT_EQ(least_expected(10, 0.0), 0);
   EXPECT_EQ(least_expected(10, 1.0), 10);
   EXPECT_EQ(least_expected(10, 0.9), 5);  // 4 of 10 or fewer: 0.00015; 5 or fewer: 0.0016
@@ -42,10 +45,13 @@ TEST(BlindMotion, HasWhatTheProtocolAsksFor) {
     rising_in_air += !m.touching(i) && m.v_mm_s[i] < -0.2;
     turning_in_air += !m.touching(i) && m.spindle_rpm[i] > 0.0;
     still_in_contact += m.touching(i) && m.v_mm_s[i] == 0.0;
-    x = m.session[i] == m.session[i - 1] ? x + 0.5 * (m.v_mm_s[i] + m.v_mm_s[i - 1]) * k_step_s : m.x_mm[i];
+    x = m.session[i] == m.session[i - 1] ? x + 0.5 * (m.v_mm_s[i] + m.v_mm_s[i - 1]) * k_step_s
+                                         : m.x_mm[i];
     ASSERT_NEAR(x, m.x_mm[i], 1e-6);
   }
-  for (const std::size_t count : {deepening_in_air, rising_in_air, turning_in_air, still_in_contact}) EXPECT_GT(count, 5000u);
+  for (const std::size_t count :
+       {deepening_in_air, rising_in_air, turning_in_air, still_in_contact})
+    EXPECT_GT(count, 5000u);
 }
 
 TEST(BlindEffect, EveryMechanismReachesItsSizeWhateverTheDraw) {
@@ -78,7 +84,8 @@ TEST(BlindEffect, ALagOfARampIsItsSlopeTimesTau) {
   }
   Draw draw(3);
   const Base base{1.0, 0.0};
-  for (const char* name : {"low_pass", "delay"}) EXPECT_NEAR(make_effect(name, draw, m, base).force_n(0.05).back(), -0.05, 1e-9) << name;
+  for (const char* name : {"low_pass", "delay"})
+    EXPECT_NEAR(make_effect(name, draw, m, base).force_n(0.05).back(), -0.05, 1e-9) << name;
   const Effect spring = make_effect("series_compliance", draw, m, base);
   EXPECT_NEAR(spring.force_n(1.0).back(), -0.5 * m.x_mm.back(), 1e-3);  // two equal springs
   const Effect play = make_effect("backlash", draw, m, base);
@@ -104,8 +111,9 @@ TEST(BlindEffect, AnOffsetOfTheSurfaceIsKTimesItInContactAndBeginsContactElsewhe
     const double delta = truth[s].value;
     EXPECT_EQ(truth[s].names, "delta_" + std::to_string(s + 1) + "_mm");
     EXPECT_TRUE(std::abs(delta) >= 0.06 && std::abs(delta) <= 0.2) << delta;
-    EXPECT_DOUBLE_EQ(force[s * 2000], 0.0);                   // in air
-    EXPECT_NEAR(force[s * 2000 + 1999], 2.0 * delta, 1e-12);  // deep in contact: k delta, whatever the depth
+    EXPECT_DOUBLE_EQ(force[s * 2000], 0.0);  // in air
+    EXPECT_NEAR(force[s * 2000 + 1999], 2.0 * delta,
+                1e-12);  // deep in contact: k delta, whatever the depth
     EXPECT_NEAR(force[s * 2000 + 1500], 2.0 * delta, 1e-12);
     double first = 0.0;  // contact begins where x = -delta, with c v at once
     for (std::size_t i = s * 2000; i < s * 2000 + 2000 && first == 0.0; ++i)
@@ -118,7 +126,8 @@ TEST(BlindRecording, TheSameRequestWritesTheSameBytes) {
   const Folder folder;
   const Request request{Kind::pair, {"wear", "bias"}, 0.6, 0.01, 7};
   write_recording(request, folder.path);
-  const std::string first = text_of(folder.path / "recording.csv"), rig = text_of(folder.path / "rig.toml");
+  const std::string first = text_of(folder.path / "recording.csv"),
+                    rig = text_of(folder.path / "rig.toml");
   write_recording(request, folder.path);
   EXPECT_EQ(first, text_of(folder.path / "recording.csv"));
   EXPECT_EQ(rig, text_of(folder.path / "rig.toml"));

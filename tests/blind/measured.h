@@ -1,5 +1,6 @@
-// What the last long run counted, so that a sample fails when things get worse, and says which promises are not kept yet.
-// Rates in the order of `rates()`; replace them after every long run (`./dev blind`), never by wish.
+// What the last long run counted, so that a sample fails when things get worse, and says which
+// promises are not kept yet. Rates in the order of `rates()`; replace them after every long run
+// (`./dev blind`), never by wish.
 #pragma once
 
 #include <array>
@@ -10,7 +11,8 @@ struct Counted {
   int successes = 0, trials = 0;
 };
 
-// All 790 recordings: `CAVUM_TEST_SEED=4226272569 blind CAVUM --table --draws 10`, program and generator of commit e056d2a.
+// All 790 recordings: `CAVUM_TEST_SEED=4226272569 blind CAVUM --table --draws 10`, program and
+// generator of commit e056d2a.
 inline constexpr const char* k_measured_by = "seed 4226272569, commit e056d2a, 790 recordings";
 inline constexpr std::array<Counted, 16> k_measured{{
     {258, 260},  // recall, size 1.0

@@ -12,7 +12,8 @@ constexpr double k_ambient_c = 23.0;
 
 /// State of the rig during one piece of the path.
 struct Setting {
-  double spindle_rpm = 0.0, wet = 0.0, posture_deg = 0.0, approach_deg = 0.0, bur_id = 1.0, site = 1.0;
+  double spindle_rpm = 0.0, wet = 0.0, posture_deg = 0.0, approach_deg = 0.0, bur_id = 1.0,
+         site = 1.0;
 };
 
 /// Writes pieces of constant speed; `finish` rounds their corners and integrates.
@@ -23,13 +24,15 @@ class Path {
   Setting now;
 
   void go(double to_mm, double speed_mm_s) {
-    const auto steps = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(std::abs(to_mm - at_mm_) / speed_mm_s / k_step_s)));
+    const auto steps = std::max<std::size_t>(
+        1, static_cast<std::size_t>(std::lround(std::abs(to_mm - at_mm_) / speed_mm_s / k_step_s)));
     const double v = (to_mm - at_mm_) / (static_cast<double>(steps) * k_step_s);
     for (std::size_t i = 0; i < steps; ++i) speeds_.push_back(v), settings_.push_back(now);
     at_mm_ = to_mm;
   }
   void hold(double seconds) {
-    for (double t = 0.0; t < seconds; t += k_step_s) speeds_.push_back(0.0), settings_.push_back(now);
+    for (double t = 0.0; t < seconds; t += k_step_s)
+      speeds_.push_back(0.0), settings_.push_back(now);
   }
 
   /// Corners of the speed become raised cosines of `ramp_s`.
@@ -38,7 +41,8 @@ class Path {
     std::vector<double> kernel(width);
     double sum = 0.0;
     for (std::size_t j = 0; j < width; ++j)
-      sum += kernel[j] = 1.0 - std::cos(2.0 * k_pi * (static_cast<double>(j) + 0.5) / static_cast<double>(width));
+      sum += kernel[j] =
+          1.0 - std::cos(2.0 * k_pi * (static_cast<double>(j) + 0.5) / static_cast<double>(width));
     double x = start_mm_, last = 0.0;
     for (std::size_t i = 0; i < speeds_.size(); ++i) {
       double v = 0.0;
@@ -80,19 +84,22 @@ std::vector<double> wander(Draw& draw, std::size_t n, double memory_s) {
   return out;
 }
 
-/// What follows from the path: lateral forces, removal, wear, warmth, and the quantity that nobody knows.
+/// What follows from the path: lateral forces, removal, wear, warmth, and the quantity that nobody
+/// knows.
 void add_companions(Draw& draw, Motion& m) {
   const std::size_t n = m.size();
   const auto y = wander(draw, n, 0.7), z = wander(draw, n, 0.9);
   m.other = wander(draw, n, 3.0);
-  const double rate = draw.uniform(0.03, 0.08), warming = draw.uniform(1.5, 3.0), cooling_s = draw.uniform(4.0, 8.0);
+  const double rate = draw.uniform(0.03, 0.08), warming = draw.uniform(1.5, 3.0),
+               cooling_s = draw.uniform(4.0, 8.0);
   double removed = 0.0, worn = 0.0, warm = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     const bool cutting = m.touching(i) && m.spindle_rpm[i] > 0.0;
     if (i > 0 && m.bur_id[i] != m.bur_id[i - 1]) worn = 0.0;
     if (i > 0 && m.session[i] != m.session[i - 1]) warm = 0.0;
     if (cutting) removed += rate * m.x_mm[i] * k_step_s, worn += rate * m.x_mm[i] * k_step_s;
-    warm += k_step_s * ((cutting ? warming * m.x_mm[i] * (m.wet[i] > 0.0 ? 0.5 : 1.0) : 0.0) - warm / cooling_s);
+    warm += k_step_s * ((cutting ? warming * m.x_mm[i] * (m.wet[i] > 0.0 ? 0.5 : 1.0) : 0.0) -
+                        warm / cooling_s);
     m.removed_mm3.push_back(removed);
     m.worn_mm3.push_back(worn);
     m.temperature_c.push_back(k_ambient_c + warm);
@@ -106,7 +113,8 @@ void add_companions(Draw& draw, Motion& m) {
 Motion six_sessions(Draw& draw) {
   Motion m;
   const std::array<double, 4> speeds{0.25, 0.5, 1.0, 2.0};
-  const double rpm = draw.uniform(18500.0, 23500.0);  // seen at 200 Hz as a line between 8 and 92 Hz
+  const double rpm =
+      draw.uniform(18500.0, 23500.0);  // seen at 200 Hz as a line between 8 and 92 Hz
   const double tilt = draw.uniform(20.0, 35.0), ramp_s = draw.uniform(0.06, 0.12);
   const std::array<double, 6> postures{0.0, tilt, 2.0 * tilt, 0.0, 2.0 * tilt, tilt};
   std::vector<double> angles{0.0, 30.0, 60.0, 90.0, 120.0, 150.0};
@@ -128,7 +136,8 @@ Motion six_sessions(Draw& draw) {
     path.go(-1.0, 2.0);
     path.hold(0.5);
     draw.shuffle(order);
-    std::vector<double> holds{10.0, 1.5, 2.0, 1.0}, spins{0.0, 0.0, 1.0, 1.0}, wets{0.0, 1.0, 0.0, 1.0};
+    std::vector<double> holds{10.0, 1.5, 2.0, 1.0}, spins{0.0, 0.0, 1.0, 1.0},
+        wets{0.0, 1.0, 0.0, 1.0};
     draw.shuffle(holds);
     draw.shuffle(spins);
     draw.shuffle(wets);
@@ -138,7 +147,8 @@ Motion six_sessions(Draw& draw) {
       path.now.spindle_rpm = spins[i] * rpm;
       path.now.wet = wets[i];
       path.now.approach_deg = angles[i];
-      const double depth = draw.uniform(0.7, 1.2), back = draw.uniform(0.2, 0.4), wiggle = speeds[1 + draw.below(2)];
+      const double depth = draw.uniform(0.7, 1.2), back = draw.uniform(0.2, 0.4),
+                   wiggle = speeds[1 + draw.below(2)];
       path.go(depth, order[i]);
       path.hold(0.5 * holds[i]);
       if (i == 1) path.now.spindle_rpm = rpm - path.now.spindle_rpm;
@@ -168,7 +178,8 @@ Motion crosshead(Draw& draw) {
     path.go(depth + draw.uniform(0.5, 0.6), speed);
     Motion one;
     path.finish(session, 0.08, one);
-    std::size_t first = static_cast<std::size_t>(0.1 / k_step_s);  // the machine is at speed when recording begins
+    std::size_t first =
+        static_cast<std::size_t>(0.1 / k_step_s);  // the machine is at speed when recording begins
     for (std::size_t i = first; i < one.size(); ++i) {
       m.session.push_back(session);
       m.t_s.push_back(static_cast<double>(i - first) * k_step_s);

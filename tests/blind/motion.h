@@ -1,5 +1,6 @@
-// The motion of a blind recording and everything known beside it: six sessions of about 47 s with air strokes and reversals, four speeds, holds,
-// spindle off and on, three postures, several approach angles, the first site repeated last. It is drawn at 1 kHz and recorded at 200 Hz.
+// The motion of a blind recording and everything known beside it: six sessions of about 47 s with
+// air strokes and reversals, four speeds, holds, spindle off and on, three postures, several
+// approach angles, the first site repeated last. It is drawn at 1 kHz and recorded at 200 Hz.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +10,12 @@
 
 namespace cavum::blind {
 
-inline constexpr double k_step_s = 0.001;         ///< of the fine grid on which mechanisms with a memory are integrated
+inline constexpr double k_step_s =
+    0.001;  ///< of the fine grid on which mechanisms with a memory are integrated
 inline constexpr std::size_t k_rows_per_row = 5;  ///< fine steps per recorded row: 200 Hz
 
-/// One entry per fine step in each vector; all have the same length. `x_mm` is negative in air, `v_mm_s` positive = deeper.
+/// One entry per fine step in each vector; all have the same length. `x_mm` is negative in air,
+/// `v_mm_s` positive = deeper.
 struct Motion {
   std::vector<int> session;  ///< 1 .. 6
   std::vector<double> t_s;   ///< from the start of its session
@@ -31,7 +34,8 @@ struct Motion {
 /// Six sessions with everything that separates the mechanisms.
 [[nodiscard]] Motion six_sessions(Draw& draw);
 
-/// What a testing machine does: each session one feed at the same constant speed, in contact from first to last, spindle on, one posture.
+/// What a testing machine does: each session one feed at the same constant speed, in contact from
+/// first to last, spindle on, one posture.
 [[nodiscard]] Motion crosshead(Draw& draw);
 
 }  // namespace cavum::blind

@@ -11,7 +11,8 @@ double binomial_at_most(int successes, int trials, double p) {
   double sum = 0.0;
   for (int i = 0; i <= successes; ++i)
     sum +=
-        std::exp(std::lgamma(trials + 1.0) - std::lgamma(i + 1.0) - std::lgamma(trials - i + 1.0) + i * std::log(p) + (trials - i) * std::log1p(-p));
+        std::exp(std::lgamma(trials + 1.0) - std::lgamma(i + 1.0) - std::lgamma(trials - i + 1.0) +
+                 i * std::log(p) + (trials - i) * std::log1p(-p));
   return sum;
 }
 

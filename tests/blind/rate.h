@@ -1,5 +1,6 @@
-// A promised rate held against what was counted, with exact binomial tails: a run fails only where the promise (or, while a promise is not kept
-// yet, the rate measured so far) could hardly have given so few.
+// A promised rate held against what was counted, with exact binomial tails: a run fails only where
+// the promise (or, while a promise is not kept yet, the rate measured so far) could hardly have
+// given so few.
 #pragma once
 
 #include <string>
@@ -18,7 +19,9 @@ struct Rate {
   int successes = 0, trials = 0;
 
   void count(bool success) { successes += success, ++trials; }
-  [[nodiscard]] double value() const { return trials > 0 ? static_cast<double>(successes) / trials : 0.0; }
+  [[nodiscard]] double value() const {
+    return trials > 0 ? static_cast<double>(successes) / trials : 0.0;
+  }
 };
 
 }  // namespace cavum::blind

@@ -1,4 +1,5 @@
-// Writes one blind recording: a CSV and its rig.toml as docs/contracts.md has them, and, for the test only, what was hidden in it.
+// Writes one blind recording: a CSV and its rig.toml as docs/contracts.md has them, and, for the
+// test only, what was hidden in it.
 #pragma once
 
 #include <cstdint>
@@ -28,18 +29,21 @@ struct Hidden {
   double noise_n = 0.0;   ///< root mean square of the noise
   double effect_n = 0.0;  ///< root mean square beyond k and c of all that was hidden
   bool has_v = false, heavy_tails = false;
-  bool reached = true;                        ///< false: no amount of the effect gives the size on such a motion; the largest was taken
-  std::string variable;                       ///< outside: the right answers, separated by `|`
+  bool reached = true;   ///< false: no amount of the effect gives the size on such a motion; the
+                         ///< largest was taken
+  std::string variable;  ///< outside: the right answers, separated by `|`
   std::vector<std::vector<Parameter>> truth;  ///< one list per name
 };
 
 /// `time_base metres clipped shuffled repeated`.
 [[nodiscard]] const std::vector<std::string>& faults();
 
-/// Two mechanisms that can be found at all, and not of one family: two lags in a row, or two curvatures of k X, are one effect to any observer.
+/// Two mechanisms that can be found at all, and not of one family: two lags in a row, or two
+/// curvatures of k X, are one effect to any observer.
 [[nodiscard]] std::vector<std::string> draw_pair(Draw& draw);
 
-/// Writes `folder`/recording.csv and `folder`/rig.toml. \throws std::runtime_error where that is impossible.
+/// Writes `folder`/recording.csv and `folder`/rig.toml. \throws std::runtime_error where that is
+/// impossible.
 Hidden write_recording(const Request& request, const std::filesystem::path& folder);
 
 }  // namespace cavum::blind

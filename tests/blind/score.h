@@ -1,4 +1,5 @@
-// Compares verdicts with what was hidden, after the verdict is in, and prints the tables of the blind test.
+// Compares verdicts with what was hidden, after the verdict is in, and prints the tables of the
+// blind test.
 #pragma once
 
 #include <vector>
@@ -16,15 +17,17 @@ struct Outcome {
   SimplerAnswers simpler;
 };
 
-/// How one verdict compares. For `gain_error`, which k and c take up entirely, `found` means that it was called not testable or put into an alias
-/// set.
+/// How one verdict compares. For `gain_error`, which k and c take up entirely, `found` means that
+/// it was called not testable or put into an alias set.
 struct Mark {
-  bool found = false;  ///< what the promise of its kind asks for: truth in a set of at most three, both of a pair, no cause on clean data, ...
+  bool found = false;  ///< what the promise of its kind asks for: truth in a set of at most three,
+                       ///< both of a pair, no cause on clean data, ...
   bool exact = false;  ///< single: the one name, with no alias
   int causes = 0, true_causes = 0;
   std::vector<double> errors;  ///< of the parameters, relative
   std::vector<bool> covered;   ///< by their intervals
-  double gain_ratio = 0.0;     ///< to the gain of the model that generated the data; 0 where that has none
+  double gain_ratio =
+      0.0;  ///< to the gain of the model that generated the data; 0 where that has none
 };
 [[nodiscard]] Mark mark(const Outcome& outcome);
 

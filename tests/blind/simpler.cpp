@@ -34,7 +34,8 @@ Data read(const std::filesystem::path& folder) {
   std::string line, cell;
   std::getline(csv, line);
   std::vector<Series*> order;
-  for (std::istringstream head(line); std::getline(head, cell, ',');) order.push_back(&d.columns[cell]);
+  for (std::istringstream head(line); std::getline(head, cell, ',');)
+    order.push_back(&d.columns[cell]);
   while (std::getline(csv, line)) {
     const char* at = line.c_str();
     for (Series* s : order) {
@@ -81,44 +82,63 @@ std::vector<Column> library(const Data& d, const Series& v, const Series& f_sim)
   add("bias", [](std::size_t) { return 1.0; });
   add("drift", [&](std::size_t i) { return t[i]; });
   add("coulomb_friction", [&](std::size_t i) { return std::tanh(v[i] / 0.04); });
-  add("stribeck_friction", [&](std::size_t i) { return std::tanh(v[i] / 0.04) * std::exp(-4.0 * v[i] * v[i]); });
+  add("stribeck_friction",
+      [&](std::size_t i) { return std::tanh(v[i] / 0.04) * std::exp(-4.0 * v[i] * v[i]); });
   add("viscous_friction", [&](std::size_t i) { return v[i]; });
   const Series a = slope(v, 10), rise = slope(f_sim, 3);
   add("inertia", [&](std::size_t i) { return a[i]; });
   add("delay", [&](std::size_t i) { return -rise[i]; });
   double state = 0.0;
-  add("low_pass", [&](std::size_t i) { return (state = fresh(i) ? f_sim[i] : state + 0.1 * (f_sim[i] - state)) - f_sim[i]; });
+  add("low_pass", [&](std::size_t i) {
+    return (state = fresh(i) ? f_sim[i] : state + 0.1 * (f_sim[i] - state)) - f_sim[i];
+  });
   const double high = 0.85 * *std::max_element(f_sim.begin(), f_sim.end());
   add("saturation", [&](std::size_t i) { return std::min(0.0, high - f_sim[i]); });
   add("backlash", [&](std::size_t i) {
     state = fresh(i) ? x[i] : std::clamp(state, x[i] - 0.05, x[i] + 0.05);
     return in(i) ? state - x[i] : 0.0;
   });
-  add("hysteresis", [&](std::size_t i) { return state = !in(i) || fresh(i) ? 0.0 : state + k_row_s * (v[i] - std::abs(v[i]) * state / 0.1); });
+  add("hysteresis", [&](std::size_t i) {
+    return state =
+               !in(i) || fresh(i) ? 0.0 : state + k_row_s * (v[i] - std::abs(v[i]) * state / 0.1);
+  });
   for (const double tau : {0.45, 4.5})
-    add("relaxation", [&, tau](std::size_t i) { return state = !in(i) || fresh(i) ? 0.0 : (state + k_row_s * v[i]) / (1.0 + k_row_s / tau); });
+    add("relaxation", [&, tau](std::size_t i) {
+      return state = !in(i) || fresh(i) ? 0.0 : (state + k_row_s * v[i]) / (1.0 + k_row_s / tau);
+    });
   add("series_compliance", [&](std::size_t i) {
     const double lag = 0.1 * d.c / d.k / k_row_s;
-    state = !in(i) || fresh(i) ? 0.0 : std::max(0.0, (d.k * x[i] + d.c * v[i] + lag * state) / (1.1 + lag));
+    state = !in(i) || fresh(i)
+                ? 0.0
+                : std::max(0.0, (d.k * x[i] + d.c * v[i] + lag * state) / (1.1 + lag));
     return state - f_sim[i];
   });
   add("nonlinear_stiffness", [&](std::size_t i) { return in(i) ? x[i] * std::log(x[i]) : 0.0; });
   add("hidden_layer", [&](std::size_t i) { return std::max(0.0, x[i] - 0.5); });
   add("graded_stiffness", [&](std::size_t i) { return in(i) ? x[i] * x[i] : 0.0; });
-  add("feed_power_law", [&](std::size_t i) { return in(i) ? v[i] * std::log(std::abs(v[i]) + 1e-3) : 0.0; });
+  add("feed_power_law",
+      [&](std::size_t i) { return in(i) ? v[i] * std::log(std::abs(v[i]) + 1e-3) : 0.0; });
   for (const double one : std::set<double>(session.begin(), session.end()))
-    add("contact_offset", [&, one](std::size_t i) { return in(i) && session[i] == one ? 1.0 : 0.0; });
-  if (d.has("posture_deg")) add("gravity_posture", [&](std::size_t i) { return std::sin(d["posture_deg"][i] * k_pi / 180.0); });
+    add("contact_offset",
+        [&, one](std::size_t i) { return in(i) && session[i] == one ? 1.0 : 0.0; });
+  if (d.has("posture_deg"))
+    add("gravity_posture",
+        [&](std::size_t i) { return std::sin(d["posture_deg"][i] * k_pi / 180.0); });
   if (d.has("fy_n"))
-    for (const char* side : {"fy_n", "fz_n"}) add("cross_talk", [&, side](std::size_t i) { return d[side][i]; });
+    for (const char* side : {"fy_n", "fz_n"})
+      add("cross_talk", [&, side](std::size_t i) { return d[side][i]; });
   if (d.has("approach_deg"))
     for (const double turn : {0.0, 90.0})
-      add("anisotropy", [&, turn](std::size_t i) { return f_sim[i] * std::cos((2.0 * d["approach_deg"][i] - turn) * k_pi / 180.0); });
+      add("anisotropy", [&, turn](std::size_t i) {
+        return f_sim[i] * std::cos((2.0 * d["approach_deg"][i] - turn) * k_pi / 180.0);
+      });
   if (d.has("spindle_rpm")) {
     const Series& rpm = d["spindle_rpm"];
     add("edge_force", [&](std::size_t i) { return in(i) && rpm[i] > 0.0 ? 1.0 : 0.0; });
     for (const double turn : {0.0, 0.5 * k_pi})
-      add("run_out", [&, turn](std::size_t i) { return in(i) && rpm[i] > 0.0 ? std::cos(2.0 * k_pi * rpm[i] / 60.0 * t[i] - turn) : 0.0; });
+      add("run_out", [&, turn](std::size_t i) {
+        return in(i) && rpm[i] > 0.0 ? std::cos(2.0 * k_pi * rpm[i] / 60.0 * t[i] - turn) : 0.0;
+      });
   }
   if (d.has("removed_mm3") && d.has("bur_id")) {
     const Series &removed = d["removed_mm3"], &bur = d["bur_id"];
@@ -128,8 +148,12 @@ std::vector<Column> library(const Data& d, const Series& v, const Series& f_sim)
     });
   }
   if (d.has("wet")) add("coolant", [&](std::size_t i) { return f_sim[i] * d["wet"][i]; });
-  if (d.has("temperature_c")) add("thermal_softening", [&](std::size_t i) { return f_sim[i] * (d["temperature_c"][i] - d["temperature_c"][0]); });
-  std::erase_if(list, [](const Column& c) { return std::all_of(c.values.begin(), c.values.end(), [](double value) { return value == 0.0; }); });
+  if (d.has("temperature_c"))
+    add("thermal_softening",
+        [&](std::size_t i) { return f_sim[i] * (d["temperature_c"][i] - d["temperature_c"][0]); });
+  std::erase_if(list, [](const Column& c) {
+    return std::all_of(c.values.begin(), c.values.end(), [](double value) { return value == 0.0; });
+  });
   return list;
 }
 
@@ -149,7 +173,8 @@ Moments moments(std::vector<Column>& list, const Series& residual) {
   Moments m{list.size(), std::vector<Series>(list.size() + 1, Series(list.size() + 1, 0.0))};
   for (std::size_t a = 0; a <= m.size; ++a)
     for (std::size_t b = 0; b <= a; ++b) {
-      const Series &left = a < m.size ? list[a].values : residual, &right = b < m.size ? list[b].values : residual;
+      const Series &left = a < m.size ? list[a].values : residual,
+                   &right = b < m.size ? list[b].values : residual;
       double sum = 0.0;
       for (std::size_t i = 0; i < residual.size(); ++i) sum += left[i] * right[i];
       m.product[a][b] = m.product[b][a] = sum / n;
@@ -162,7 +187,8 @@ struct Fit {
   double mean_square = 0.0;
 };
 
-/// Least squares over the chosen columns by Cholesky's factorisation, with a ridge that only keeps it solvable.
+/// Least squares over the chosen columns by Cholesky's factorisation, with a ridge that only keeps
+/// it solvable.
 Fit fit(const Moments& m, const std::vector<std::size_t>& chosen) {
   const std::size_t p = chosen.size();
   std::vector<Series> low(p, Series(p, 0.0));
@@ -187,7 +213,8 @@ Fit fit(const Moments& m, const std::vector<std::size_t>& chosen) {
   return out;
 }
 
-std::vector<std::string> names_of(const std::vector<Column>& list, const std::vector<std::size_t>& chosen) {
+std::vector<std::string> names_of(const std::vector<Column>& list,
+                                  const std::vector<std::size_t>& chosen) {
   std::set<std::string> names;
   for (const std::size_t i : chosen)
     if (!list[i].name.empty()) names.insert(list[i].name);
@@ -211,7 +238,8 @@ SimplerAnswers ask_simpler(const std::filesystem::path& folder) {
 
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < list.size(); ++i) chosen.push_back(i);
-  for (bool again = true; again;) {  // a part below 0.2 of the residual goes, and the rest is fitted again
+  for (bool again = true;
+       again;) {  // a part below 0.2 of the residual goes, and the rest is fitted again
     const Fit f = fit(m, chosen);
     const double least = 0.2 * std::sqrt(m.product[m.size][m.size]);
     std::vector<std::size_t> kept;

@@ -1,5 +1,6 @@
-// What simpler methods say of the same recording: sequentially thresholded least squares, and forward selection by BIC. Both regress the frozen
-// residual F − F_sim on a library with one column (or two) per mechanism at a typical shape, with k and c beside it: no twins, no joint fit of
+// What simpler methods say of the same recording: sequentially thresholded least squares, and
+// forward selection by BIC. Both regress the frozen residual F − F_sim on a library with one column
+// (or two) per mechanism at a typical shape, with k and c beside it: no twins, no joint fit of
 // shapes, no aliases.
 #pragma once
 
@@ -10,7 +11,8 @@
 namespace cavum::blind {
 
 struct SimplerAnswers {
-  std::vector<std::string> thresholded;  ///< mechanisms named by sequentially thresholded least squares
+  std::vector<std::string>
+      thresholded;  ///< mechanisms named by sequentially thresholded least squares
   std::vector<std::string> forward_bic;  ///< mechanisms named by forward selection
 };
 

@@ -25,7 +25,8 @@ double number(const nlohmann::json& object, const char* name) {
 
 std::vector<std::string> texts(const nlohmann::json& list) {
   std::vector<std::string> out;
-  for (const auto& item : list) out.push_back(item.is_string() ? item.get<std::string>() : item.dump());
+  for (const auto& item : list)
+    out.push_back(item.is_string() ? item.get<std::string>() : item.dump());
   return out;
 }
 
@@ -38,12 +39,15 @@ void read(const nlohmann::json& j, Verdict& v) {
   v.verdict = j.at("verdict").get<std::string>();
   for (const auto& c : j.at("causes")) {
     Cause cause{c.at("mechanism").get<std::string>(), texts(c.at("aliases")), {}};
-    for (const auto& [name, p] : c.at("parameters").items()) cause.parameters[name] = {number(p, "value"), number(p, "low"), number(p, "high")};
+    for (const auto& [name, p] : c.at("parameters").items())
+      cause.parameters[name] = {number(p, "value"), number(p, "low"), number(p, "high")};
     v.causes.push_back(std::move(cause));
   }
-  if (!j.at("unexplained").is_null()) v.unexplained = j.at("unexplained").at("variable").get<std::string>();
+  if (!j.at("unexplained").is_null())
+    v.unexplained = j.at("unexplained").at("variable").get<std::string>();
   v.not_testable = texts(j.at("not_testable"));
-  for (const auto& fault : j.at("data_faults")) v.data_faults.push_back(fault.at("text").get<std::string>());
+  for (const auto& fault : j.at("data_faults"))
+    v.data_faults.push_back(fault.at("text").get<std::string>());
   if (j.at("base").is_object()) v.base_rmse_n = number(j.at("base"), "heldout_rmse_n");
   if (j.at("extended").is_object()) v.extended_rmse_n = number(j.at("extended"), "heldout_rmse_n");
   if (j.at("gain").is_object()) v.gain_percent = number(j.at("gain"), "percent");
@@ -53,14 +57,18 @@ void read(const nlohmann::json& j, Verdict& v) {
 }  // namespace
 
 bool Cause::holds(const std::string& name) const {
-  return aliases.size() <= 2 && (mechanism == name || std::find(aliases.begin(), aliases.end(), name) != aliases.end());
+  return aliases.size() <= 2 &&
+         (mechanism == name || std::find(aliases.begin(), aliases.end(), name) != aliases.end());
 }
 
-Verdict ask(const std::filesystem::path& cavum, const std::filesystem::path& folder, std::uint64_t seed, const std::string& options) {
+Verdict ask(const std::filesystem::path& cavum, const std::filesystem::path& folder,
+            std::uint64_t seed, const std::string& options) {
   Verdict v;
   const auto begin = std::chrono::steady_clock::now();
-  const std::string command = "'" + cavum.string() + "' explain '" + (folder / "recording.csv").string() + "' --json --seed " + std::to_string(seed) +
-                              " " + options + " > '" + (folder / "answer.json").string() + "' 2> '" + (folder / "errors.txt").string() + "'";
+  const std::string command =
+      "'" + cavum.string() + "' explain '" + (folder / "recording.csv").string() +
+      "' --json --seed " + std::to_string(seed) + " " + options + " > '" +
+      (folder / "answer.json").string() + "' 2> '" + (folder / "errors.txt").string() + "'";
   const int status = std::system(command.c_str());
   v.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   try {
@@ -68,7 +76,8 @@ Verdict ask(const std::filesystem::path& cavum, const std::filesystem::path& fol
     v.answered = true;
   } catch (const std::exception& e) {
     std::string errors = text_of(folder / "errors.txt");
-    v.trouble = "status " + std::to_string(status) + ": " + errors.substr(0, 300) + " (" + e.what() + ")";
+    v.trouble =
+        "status " + std::to_string(status) + ": " + errors.substr(0, 300) + " (" + e.what() + ")";
   }
   return v;
 }

@@ -1,4 +1,5 @@
-// Runs `cavum explain` as a user does and reads its answer. The program sees the recording, never what was hidden.
+// Runs `cavum explain` as a user does and reads its answer. The program sees the recording, never
+// what was hidden.
 #pragma once
 
 #include <filesystem>
@@ -39,7 +40,7 @@ struct Verdict {
 [[nodiscard]] std::string text_of(const std::filesystem::path& file);
 
 /// Runs `cavum explain folder/recording.csv --json --seed seed`.
-[[nodiscard]] Verdict ask(const std::filesystem::path& cavum, const std::filesystem::path& folder, std::uint64_t seed,
-                          const std::string& options = "");
+[[nodiscard]] Verdict ask(const std::filesystem::path& cavum, const std::filesystem::path& folder,
+                          std::uint64_t seed, const std::string& options = "");
 
 }  // namespace cavum::blind

@@ -50,7 +50,7 @@ code=0
 ((code == 0)) || exit "$code"
 export SLURM_CONF=$work/cluster/slurm.conf
 
-"$cavum" verify-all "$work/s" --slurm --a-task 50 --work "$work/whole" --out "$work/slurm" | sed 's/^/two nodes: /'
+"$cavum" verify-all "$work/s" --slurm --sessions-per-task 50 --work "$work/whole" --out "$work/slurm" | sed 's/^/two nodes: /'
 cmp "$work/threads" "$work/slurm" || fail "the cluster gives other lines"
 tasks=$(sed 's/\],*/\n/g' "$work/whole/blocks-1.json" | awk -F, '/[0-9]/ { print NF }' | sort -n | xargs)
 awk -v count="$count" -v sizes="$tasks" 'BEGIN { n = split(sizes, of, " "); for (i in of) sum += of[i]
@@ -60,7 +60,7 @@ not_whole slurm --slurm --work "$work/ledger-work"
 echo "a damaged ledger: the cluster says the same"
 
 # the same with a node that dies: its daemon and what it runs
-"$cavum" verify-all "$work/s" --slurm --a-task 50 --work "$work/broken" --out "$work/killed" >"$work/said" 2>&1 &
+"$cavum" verify-all "$work/s" --slurm --sessions-per-task 50 --work "$work/broken" --out "$work/killed" >"$work/said" 2>&1 &
 verb=$!
 for _ in $(seq 600); do
   [ "$(cat "$work"/broken/parts/*.part 2>/dev/null | wc -l)" -ge $((count / 4)) ] && break

@@ -23,7 +23,8 @@ using testing_device::run;
 class DevicesVerb : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!EmulatedPedal::possible()) GTEST_SKIP() << "runs under umockdev-wrapper only: ctest does so";
+    if (!EmulatedPedal::possible())
+      GTEST_SKIP() << "runs under umockdev-wrapper only: ctest does so";
     ::setenv("CAVUM_HOME", home_.file("").c_str(), 1);
   }
   testing_basics::Folder home_;
@@ -89,7 +90,10 @@ TEST_F(DevicesVerb, CalibratesAndKeepsIt) {
   EmulatedPedal pedal;
   Speaking speaking(pedal);
   // the foot goes down between the two questions
-  FILE* pipe = ::popen((std::string(CAVUM_BINARY) + " devices --calibrate-pedal --seconds 1 >/dev/null 2>&1").c_str(), "w");
+  FILE* pipe =
+      ::popen((std::string(CAVUM_BINARY) + " devices --calibrate-pedal --seconds 1 >/dev/null 2>&1")
+                  .c_str(),
+              "w");
   ASSERT_NE(pipe, nullptr);
   std::fputs("\n", pipe);
   std::fflush(pipe);

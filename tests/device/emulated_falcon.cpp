@@ -9,22 +9,27 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// As an FT232 with its maker's numbers: one configuration, one interface, bulk in 0x81 and out 0x02.
+/// As an FT232 with its maker's numbers: one configuration, one interface, bulk in 0x81 and out
+/// 0x02.
 const Bytes& usb_descriptors() {
-  static const Bytes bytes{18, 1, 0x00, 0x02, 0,  0,    0,    64,   0x03, 0x04, 0x48, 0xcb, 0x00, 0x04, 1, 2, 3, 1,  // device
-                           9,  2, 32,   0,    1,  1,    0,    0x80, 45,                                              // configuration
-                           9,  4, 0,    0,    2,  0xff, 0xff, 0xff, 0,                                               // interface
-                           7,  5, 0x81, 2,    64, 0,    0,                                                           // in
-                           7,  5, 0x02, 2,    64, 0,    0};
+  static const Bytes bytes{18,   1,    0x00, 0x02, 0,    0,    0,    64,   0x03,
+                           0x04, 0x48, 0xcb, 0x00, 0x04, 1,    2,    3,    1,   // device
+                           9,    2,    32,   0,    1,    1,    0,    0x80, 45,  // configuration
+                           9,    4,    0,    0,    2,    0xff, 0xff, 0xff, 0,   // interface
+                           7,    5,    0x81, 2,    64,   0,    0,               // in
+                           7,    5,    0x02, 2,    64,   0,    0};
   return bytes;
 }
 
-constexpr auto k_latency = std::chrono::milliseconds(1);  // the chip answers with its status when it has nothing else
+constexpr auto k_latency =
+    std::chrono::milliseconds(1);  // the chip answers with its status when it has nothing else
 
 }  // namespace
 
 EmulatedFalcon::EmulatedFalcon(bool running, bool homed, UMockdevTestbed* bed)
-    : EmulatedUsb(2, usb_descriptors(), bed), running_(running), homed_(static_cast<std::uint8_t>(homed ? 7 : 0)) {
+    : EmulatedUsb(2, usb_descriptors(), bed),
+      running_(running),
+      homed_(static_cast<std::uint8_t>(homed ? 7 : 0)) {
   move_to(k_falcon_middle_mm);
   plug_in();
 }
@@ -39,8 +44,10 @@ void EmulatedFalcon::move_to(Vec3 device_mm) {
   FalconAngles angles{};
   if (!falcon_angles({}, device_mm, angles)) throw std::runtime_error("no arm reaches there");
   with_lock([&] {
-    for (std::size_t i = 0; i < 3; ++i)  // 320 slots of four edges, a gear of 7.62, 35 degrees at zero
-      encoders_[i] = static_cast<std::int16_t>(std::lround((angles[i] * 180.0 / M_PI - 35.0) / 360.0 * 7.62 * 1280.0));
+    for (std::size_t i = 0; i < 3;
+         ++i)  // 320 slots of four edges, a gear of 7.62, 35 degrees at zero
+      encoders_[i] = static_cast<std::int16_t>(
+          std::lround((angles[i] * 180.0 / M_PI - 35.0) / 360.0 * 7.62 * 1280.0));
   });
 }
 
@@ -88,7 +95,8 @@ void EmulatedFalcon::hear(const Bytes& bytes) {
     firmware_.clear();
   } else if (loading_ == 3 && baud_ == 0x15) {
     firmware_.insert(firmware_.end(), bytes.begin(), bytes.end());
-    for (const std::uint8_t b : bytes) to_host_.push_back(static_cast<std::uint8_t>(wrong_echo_ ? b ^ 1 : b));
+    for (const std::uint8_t b : bytes)
+      to_host_.push_back(static_cast<std::uint8_t>(wrong_echo_ ? b ^ 1 : b));
   } else if (baud_ == 2) {
     if (loading_ == 3) {  // the loader hands over
       running_ = !firmware_.empty();
@@ -108,7 +116,9 @@ void EmulatedFalcon::hear_frame(const Bytes& frame) {
   ++frames_;
   Bytes reply{'<'};
   for (const std::int16_t e : encoders_)
-    for (int n = 0; n < 4; ++n) reply.push_back(static_cast<std::uint8_t>('A' + (static_cast<std::uint16_t>(e) >> (4 * n)) % 16));
+    for (int n = 0; n < 4; ++n)
+      reply.push_back(
+          static_cast<std::uint8_t>('A' + (static_cast<std::uint16_t>(e) >> (4 * n)) % 16));
   reply.push_back(static_cast<std::uint8_t>('A' + homed_ * 16 + buttons_));
   reply.push_back('A');
   reply.push_back('>');
@@ -116,7 +126,8 @@ void EmulatedFalcon::hear_frame(const Bytes& frame) {
   to_host_.insert(to_host_.end(), reply.begin(), reply.end());
 }
 
-std::optional<EmulatedUsb::Bytes> EmulatedFalcon::say(std::size_t room, std::chrono::steady_clock::time_point since) {
+std::optional<EmulatedUsb::Bytes> EmulatedFalcon::say(std::size_t room,
+                                                      std::chrono::steady_clock::time_point since) {
   if (to_host_.empty() && std::chrono::steady_clock::now() - since < k_latency) return std::nullopt;
   Bytes packet{0x01, 0x60};  // the chip's status
   while (!to_host_.empty() && packet.size() < std::min<std::size_t>(64, room)) {

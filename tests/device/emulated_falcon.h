@@ -1,5 +1,6 @@
-// A Novint Falcon that the real libusb talks to: umockdev stands in for /sys and /dev, and this answers what the kernel's usbfs would. It has a
-// loader that wants firmware, arms that must be homed, and motors that remember what was sent. Programs that use it run under umockdev-wrapper.
+// A Novint Falcon that the real libusb talks to: umockdev stands in for /sys and /dev, and this
+// answers what the kernel's usbfs would. It has a loader that wants firmware, arms that must be
+// homed, and motors that remember what was sent. Programs that use it run under umockdev-wrapper.
 #pragma once
 
 #include <array>

@@ -28,7 +28,8 @@ json json_of(Vec3 v) { return {{"x", v.x}, {"y", v.y}, {"z", v.z}}; }
 
 /// The head of an unmasked text frame, RFC 6455 section 5.2, for 126 to 65,535 bytes.
 std::string frame_head(std::size_t bytes) {
-  return {static_cast<char>(0x81), static_cast<char>(126), static_cast<char>(bytes >> 8), static_cast<char>(bytes & 0xff)};
+  return {static_cast<char>(0x81), static_cast<char>(126), static_cast<char>(bytes >> 8),
+          static_cast<char>(bytes & 0xff)};
 }
 
 /// The other side has closed the line.
@@ -40,13 +41,15 @@ bool has_left(int socket) {
 }  // namespace
 
 struct EmulatedInverse3::Line {
-  explicit Line(asio::ip::tcp::socket socket) : cutter(::dup(socket.native_handle())), stream(std::move(socket)) {}
+  explicit Line(asio::ip::tcp::socket socket)
+      : cutter(::dup(socket.native_handle())), stream(std::move(socket)) {}
   ~Line() { ::close(cutter); }
   Line(const Line&) = delete;
   Line& operator=(const Line&) = delete;
   void cut() const { ::shutdown(cutter, SHUT_RDWR); }
 
-  const int cutter;  // the same socket for other threads, so that its number is not another's once the line is over
+  const int cutter;  // the same socket for other threads, so that its number is not another's once
+                     // the line is over
   beast::websocket::stream<asio::ip::tcp::socket> stream;
   std::set<std::string> pushed;  // ids of devices that it told a force
   std::thread thread;
@@ -109,7 +112,8 @@ void EmulatedInverse3::listen() {
 
 void EmulatedInverse3::serve(Line& line) {
   ++lines_;
-  static_cast<void>(ask_for_fifo(69));  // where the system allows it, so that what is measured is the stylus and not this
+  static_cast<void>(ask_for_fifo(
+      69));  // where the system allows it, so that what is measured is the stylus and not this
   try {
     line.stream.accept();
     reply(line, true);
@@ -164,22 +168,40 @@ std::string EmulatedInverse3::state(bool first) const {
   json message = json::object();
   const std::lock_guard lock(mutex_);
   if (first && newer_) message["session_id"] = 7;
-  json &devices = message["inverse3"] = json::array(), &wireless = message["wireless_verse_grip"] = json::array(),
+  json &devices = message["inverse3"] = json::array(),
+       &wireless = message["wireless_verse_grip"] = json::array(),
        &wired = message["verse_grip"] = json::array();
   for (const auto& [id, d] : devices_) {
     json device{{"device_id", id},
-                {"state", {{"cursor_position", json_of(d.position_m)}, {"cursor_velocity", json_of({})}, {"control_mode", "idle"}}},
-                {"status", {{"calibrated", d.calibrated}, {"in_use", false}, {"power_supply", d.powered}, {"ready", true}, {"started", true}}}};
-    if (first) device["config"] = {{"type", "inverse3"}, {"handedness", "right"}, {"basis", {{"permutation", "XYZ"}}}};
+                {"state",
+                 {{"cursor_position", json_of(d.position_m)},
+                  {"cursor_velocity", json_of({})},
+                  {"control_mode", "idle"}}},
+                {"status",
+                 {{"calibrated", d.calibrated},
+                  {"in_use", false},
+                  {"power_supply", d.powered},
+                  {"ready", true},
+                  {"started", true}}}};
+    if (first)
+      device["config"] = {
+          {"type", "inverse3"}, {"handedness", "right"}, {"basis", {{"permutation", "XYZ"}}}};
     devices.push_back(device);
   }
   for (const auto& [id, g] : grips_) {
-    const json orientation{{"w", g.orientation.w}, {"x", g.orientation.x}, {"y", g.orientation.y}, {"z", g.orientation.z}};
+    const json orientation{{"w", g.orientation.w},
+                           {"x", g.orientation.x},
+                           {"y", g.orientation.y},
+                           {"z", g.orientation.z}};
     if (g.wired)
-      wired.push_back({{"device_id", id}, {"state", {{"orientation", orientation}, {"hall", 0}, {"button", g.a}}}});
+      wired.push_back({{"device_id", id},
+                       {"state", {{"orientation", orientation}, {"hall", 0}, {"button", g.a}}}});
     else
-      wireless.push_back(
-          {{"device_id", id}, {"state", {{"orientation", orientation}, {"buttons", {{"a", g.a}, {"b", g.b}, {"c", false}}}, {"trial_level", 0.8}}}});
+      wireless.push_back({{"device_id", id},
+                          {"state",
+                           {{"orientation", orientation},
+                            {"buttons", {{"a", g.a}, {"b", g.b}, {"c", false}}},
+                            {"trial_level", 0.8}}}});
   }
   return message.dump();
 }
@@ -212,15 +234,18 @@ void EmulatedInverse3::reply(Line& line, bool first) {
       stream.binary(true);
       break;
     case Answer::far_away:
-      text = R"({"inverse3":[{"device_id":"049D","state":{"cursor_position":{"x":1e300,"y":0,"z":0}}}]})";
+      text =
+          R"({"inverse3":[{"device_id":"049D","state":{"cursor_position":{"x":1e300,"y":0,"z":0}}}]})";
       break;
     case Answer::half:
     case Answer::in_two_parts: {
       const std::string frame = frame_head(text.size()) + text;
       asio::write(stream.next_layer(), asio::buffer(frame.data(), frame.size() / 2));
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
-      while (answer_ == Answer::half && !has_left(stream.next_layer().native_handle())) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      asio::write(stream.next_layer(), asio::buffer(frame.data() + frame.size() / 2, frame.size() - frame.size() / 2));
+      while (answer_ == Answer::half && !has_left(stream.next_layer().native_handle()))
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      asio::write(stream.next_layer(),
+                  asio::buffer(frame.data() + frame.size() / 2, frame.size() - frame.size() / 2));
       return;
     }
   }

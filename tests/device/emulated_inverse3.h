@@ -1,5 +1,6 @@
-// The service of a Haply Inverse3, as docs/inverse3.md has it: a WebSocket on this computer that sends its inventory and then one state for each
-// command. It keeps what it was told, and can fall silent, send what is no message, cut lines, and be stopped and begun again.
+// The service of a Haply Inverse3, as docs/inverse3.md has it: a WebSocket on this computer that
+// sends its inventory and then one state for each command. It keeps what it was told, and can fall
+// silent, send what is no message, cut lines, and be stopped and begun again.
 #pragma once
 
 #include <atomic>
@@ -37,7 +38,19 @@ class EmulatedInverse3 {
     Clock::time_point since;  ///< of the present force
   };
   /// How it answers.
-  enum class Answer { state, nothing, no_json, cut_short, another_json, too_large, too_deep, bytes, half, in_two_parts, far_away };
+  enum class Answer {
+    state,
+    nothing,
+    no_json,
+    cut_short,
+    another_json,
+    too_large,
+    too_deep,
+    bytes,
+    half,
+    in_two_parts,
+    far_away
+  };
 
   /// One device and one wireless grip, on a port of its own; `newer`: as from 3.5 on.
   explicit EmulatedInverse3(bool newer = true);
@@ -63,7 +76,8 @@ class EmulatedInverse3 {
     change([&](auto& devices, auto&) { devices.begin()->second.position_m = position_m; });
   }
 
-  /// Called, without its lock, before a command is heard. Set it, or take it away, while no line is open.
+  /// Called, without its lock, before a command is heard. Set it, or take it away, while no line is
+  /// open.
   void before_each_command(std::function<void()> moves) {
     const std::lock_guard lock(mutex_);
     moves_ = std::move(moves);

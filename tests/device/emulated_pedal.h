@@ -1,5 +1,5 @@
-// A foot pedal that the real hidapi talks to: umockdev stands in for /sys and /dev, a pseudo terminal for /dev/hidrawN.
-// Programs that use it run under umockdev-wrapper.
+// A foot pedal that the real hidapi talks to: umockdev stands in for /sys and /dev, a pseudo
+// terminal for /dev/hidrawN. Programs that use it run under umockdev-wrapper.
 #pragma once
 
 #include <umockdev.h>
@@ -29,7 +29,9 @@ class EmulatedPedal {
   void unplug();
   /// One input report. Returns false when there is nobody to take it.
   bool report(const std::vector<std::uint8_t>& bytes);
-  void report_axes(std::uint8_t left, std::uint8_t right, std::uint8_t rudder) { report({left, right, rudder}); }
+  void report_axes(std::uint8_t left, std::uint8_t right, std::uint8_t rudder) {
+    report({left, right, rudder});
+  }
   /// Takes away the right to open the node.
   void forbid();
   /// Where other devices may be plugged in, too.

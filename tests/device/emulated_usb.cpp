@@ -26,7 +26,9 @@ std::string hex(const std::vector<std::uint8_t>& bytes) {
 }  // namespace
 
 EmulatedUsb::EmulatedUsb(int port, Bytes facts, UMockdevTestbed* bed)
-    : bed_(bed != nullptr ? UMOCKDEV_TESTBED(g_object_ref(bed)) : umockdev_testbed_new()), port_(port), facts_(std::move(facts)) {}
+    : bed_(bed != nullptr ? UMOCKDEV_TESTBED(g_object_ref(bed)) : umockdev_testbed_new()),
+      port_(port),
+      facts_(std::move(facts)) {}
 
 EmulatedUsb::~EmulatedUsb() { leave(); }
 
@@ -50,13 +52,18 @@ void EmulatedUsb::plug_in() {
     std::snprintf(text, sizeof text, "%02x%02x", facts_[at + 1], facts_[at]);
     return std::string(text);
   };
-  const std::string text = "P: " + device_.substr(4) + "\nN: bus/usb/003/00" + number + "\nE: DEVNAME=/dev/bus/usb/003/00" + number +
-                           "\nE: DEVTYPE=usb_device\nE: SUBSYSTEM=usb\nE: BUSNUM=003\nE: DEVNUM=00" + number + "\nE: MAJOR=189\nE: MINOR=" + minor +
-                           "\nA: busnum=3\\n\nA: devnum=" + number + "\\n\nA: speed=12\\n\nA: bConfigurationValue=1\\n\nA: idVendor=" + two(8) +
-                           "\\n\nA: idProduct=" + two(10) + "\\n\nA: dev=189:" + minor + "\nH: descriptors=" + hex(facts_) + "\n";
+  const std::string text =
+      "P: " + device_.substr(4) + "\nN: bus/usb/003/00" + number +
+      "\nE: DEVNAME=/dev/bus/usb/003/00" + number +
+      "\nE: DEVTYPE=usb_device\nE: SUBSYSTEM=usb\nE: BUSNUM=003\nE: DEVNUM=00" + number +
+      "\nE: MAJOR=189\nE: MINOR=" + minor + "\nA: busnum=3\\n\nA: devnum=" + number +
+      "\\n\nA: speed=12\\n\nA: bConfigurationValue=1\\n\nA: idVendor=" + two(8) +
+      "\\n\nA: idProduct=" + two(10) + "\\n\nA: dev=189:" + minor +
+      "\nH: descriptors=" + hex(facts_) + "\n";
   GError* error = nullptr;
   if (umockdev_testbed_add_from_string(bed_.get(), text.c_str(), &error) == FALSE)
-    throw std::runtime_error(std::string("umockdev could not make the device: ") + (error != nullptr ? error->message : ""));
+    throw std::runtime_error(std::string("umockdev could not make the device: ") +
+                             (error != nullptr ? error->message : ""));
   with_lock([&] {
     gone_ = false;
     urbs_.clear();
@@ -65,13 +72,15 @@ void EmulatedUsb::plug_in() {
   ioctls_.reset(umockdev_ioctl_base_new());
   g_signal_connect(ioctls_.get(), "handle-ioctl", G_CALLBACK(answer), this);
   if (umockdev_testbed_attach_ioctl(bed_.get(), node().c_str(), ioctls_.get(), &error) == FALSE)
-    throw std::runtime_error(std::string("umockdev could not answer for the device: ") + (error != nullptr ? error->message : ""));
+    throw std::runtime_error(std::string("umockdev could not answer for the device: ") +
+                             (error != nullptr ? error->message : ""));
   umockdev_testbed_uevent(bed_.get(), device_.c_str(), "add");
 }
 
 void EmulatedUsb::unplug() {
   with_lock([&] { gone_ = true; });
-  // As in the kernel: transfers under way end with an error, and are fetched before the file is closed.
+  // As in the kernel: transfers under way end with an error, and are fetched before the file is
+  // closed.
   for (int i = 0; i < 200; ++i) {
     bool fetched = false;
     with_lock([&] { fetched = urbs_.empty(); });
@@ -94,7 +103,8 @@ void EmulatedUsb::settle(Urb& u) {
   }
   const auto& urb = *reinterpret_cast<const usbdevfs_urb*>(u.urb->data);
   const auto put = [&u](std::size_t at, const Bytes& bytes) {
-    umockdev_ioctl_data_update(u.buffer.get(), static_cast<gint>(at), const_cast<guint8*>(bytes.data()), static_cast<gint>(bytes.size()));
+    umockdev_ioctl_data_update(u.buffer.get(), static_cast<gint>(at),
+                               const_cast<guint8*>(bytes.data()), static_cast<gint>(bytes.size()));
     u.moved = static_cast<int>(bytes.size());
   };
   constexpr std::size_t k_setup = 8;
@@ -124,11 +134,14 @@ gboolean EmulatedUsb::answer(UMockdevIoctlBase*, UMockdevIoctlClient* client, gp
 
 void EmulatedUsb::serve(UMockdevIoctlClient* client) {
   const std::lock_guard lock(mutex_);
-  const auto done = [client](int error) { umockdev_ioctl_client_complete(client, error == 0 ? 0 : -1, error); };
+  const auto done = [client](int error) {
+    umockdev_ioctl_client_complete(client, error == 0 ? 0 : -1, error);
+  };
   UMockdevIoctlData* arg = umockdev_ioctl_client_get_arg(client);
   const auto at = [](UMockdevIoctlData* from, gsize offset, gsize size) {
     GError* error = nullptr;
-    UMockdevIoctlData* data = umockdev_ioctl_data_resolve(from, static_cast<gint>(offset), static_cast<gint>(size), &error);
+    UMockdevIoctlData* data = umockdev_ioctl_data_resolve(from, static_cast<gint>(offset),
+                                                          static_cast<gint>(size), &error);
     g_clear_error(&error);
     return std::shared_ptr<UMockdevIoctlData>(data, [](UMockdevIoctlData* d) {
       if (d != nullptr) umockdev_ioctl_data_unref(d);
@@ -136,7 +149,8 @@ void EmulatedUsb::serve(UMockdevIoctlClient* client) {
   };
   const gulong request = umockdev_ioctl_client_get_request(client);
   const bool fetches = request == USBDEVFS_REAPURB || request == USBDEVFS_REAPURBNDELAY;
-  if (gone_ && (!fetches || urbs_.empty())) return done(request == USBDEVFS_DISCARDURB ? EINVAL : ENODEV);
+  if (gone_ && (!fetches || urbs_.empty()))
+    return done(request == USBDEVFS_DISCARDURB ? EINVAL : ENODEV);
   switch (request) {
     case USBDEVFS_GET_CAPABILITIES: {
       const auto place = at(arg, 0, sizeof(std::uint32_t));
@@ -155,7 +169,8 @@ void EmulatedUsb::serve(UMockdevIoctlClient* client) {
       Urb u;
       u.urb = at(arg, 0, sizeof(usbdevfs_urb));
       const auto& urb = *reinterpret_cast<const usbdevfs_urb*>(u.urb->data);
-      u.buffer = at(u.urb.get(), offsetof(usbdevfs_urb, buffer), static_cast<gsize>(std::max(1, urb.buffer_length)));
+      u.buffer = at(u.urb.get(), offsetof(usbdevfs_urb, buffer),
+                    static_cast<gsize>(std::max(1, urb.buffer_length)));
       u.submitted = std::chrono::steady_clock::now();
       settle(u);
       urbs_.push_back(std::move(u));
@@ -181,7 +196,9 @@ void EmulatedUsb::serve(UMockdevIoctlClient* client) {
         urb.status = i->status;
         urb.actual_length = i->moved;
         const auto put = [&i](std::size_t offset, const int& value) {
-          umockdev_ioctl_data_update(i->urb.get(), static_cast<gint>(offset), reinterpret_cast<guint8*>(const_cast<int*>(&value)), sizeof value);
+          umockdev_ioctl_data_update(i->urb.get(), static_cast<gint>(offset),
+                                     reinterpret_cast<guint8*>(const_cast<int*>(&value)),
+                                     sizeof value);
         };
         put(offsetof(usbdevfs_urb, status), urb.status);
         put(offsetof(usbdevfs_urb, actual_length), urb.actual_length);

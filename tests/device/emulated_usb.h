@@ -1,5 +1,6 @@
-// A USB device that the real libusb talks to: umockdev stands in for /sys and /dev, and this answers what the kernel's usbfs would. What the device
-// itself says and hears is its own. Programs that use it run under umockdev-wrapper.
+// A USB device that the real libusb talks to: umockdev stands in for /sys and /dev, and this
+// answers what the kernel's usbfs would. What the device itself says and hears is its own. Programs
+// that use it run under umockdev-wrapper.
 #pragma once
 
 #include <umockdev.h>
@@ -18,8 +19,8 @@ namespace cavum::testing_device {
 class EmulatedUsb {
  public:
   using Bytes = std::vector<std::uint8_t>;
-  /// `port` 2 is /sys/bus/usb/devices/3-2. `facts`: its device and configuration descriptors, as on the wire.
-  /// `bed`: where another device is plugged in already; one of its own when null.
+  /// `port` 2 is /sys/bus/usb/devices/3-2. `facts`: its device and configuration descriptors, as on
+  /// the wire. `bed`: where another device is plugged in already; one of its own when null.
   EmulatedUsb(int port, Bytes facts, UMockdevTestbed* bed = nullptr);
   virtual ~EmulatedUsb();
   EmulatedUsb(const EmulatedUsb&) = delete;
@@ -32,12 +33,13 @@ class EmulatedUsb {
   [[nodiscard]] std::string node() const;
 
  protected:
-  /// With the lock held. A control transfer: eight bytes of setup, and what follows them. Returns the bytes of a reading one, nothing when the device
-  /// refuses.
+  /// With the lock held. A control transfer: eight bytes of setup, and what follows them. Returns
+  /// the bytes of a reading one, nothing when the device refuses.
   virtual std::optional<Bytes> control(const Bytes& setup) = 0;
   virtual void hear(const Bytes& bytes) = 0;
   /// What it says to a transfer of `room` bytes that waits since `since`; nothing: let it wait.
-  virtual std::optional<Bytes> say(std::size_t room, std::chrono::steady_clock::time_point since) = 0;
+  virtual std::optional<Bytes> say(std::size_t room,
+                                   std::chrono::steady_clock::time_point since) = 0;
   virtual void plugged_in() {}
   /// Without the lock, before it is taken away.
   virtual void unplugging() {}

@@ -1,4 +1,5 @@
-// A foot pedal that hidapi reaches through libusb instead of hidraw: the same axes and reports as emulated_pedal.h, over usbfs.
+// A foot pedal that hidapi reaches through libusb instead of hidraw: the same axes and reports as
+// emulated_pedal.h, over usbfs.
 #pragma once
 
 #include <deque>
@@ -16,7 +17,9 @@ class EmulatedUsbPedal final : public EmulatedUsb {
   /// True when this program runs under umockdev-wrapper.
   [[nodiscard]] static bool possible();
   bool report(const Bytes& bytes);
-  void report_axes(std::uint8_t left, std::uint8_t right, std::uint8_t rudder) { report({left, right, rudder}); }
+  void report_axes(std::uint8_t left, std::uint8_t right, std::uint8_t rudder) {
+    report({left, right, rudder});
+  }
   [[nodiscard]] static std::string path() { return "3-1:1.0"; }
   /// Times that somebody asked for an input report, which the CH pedals do not answer.
   [[nodiscard]] int asked_for_reports() const {

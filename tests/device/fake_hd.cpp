@@ -1,5 +1,6 @@
-// A library with the names of OpenHaptics, for tests: two devices, a scheduler of its own at 1 kHz, and whatever can go wrong. Environment:
-// FAKE_HD_NO_DEVICE, FAKE_HD_ERROR_AFTER_MS (of the scheduler's time), FAKE_HD_CALIBRATION (`update` becomes good once asked for, `manual` once
+// A library with the names of OpenHaptics, for tests: two devices, a scheduler of its own at 1 kHz,
+// and whatever can go wrong. Environment: FAKE_HD_NO_DEVICE, FAKE_HD_ERROR_AFTER_MS (of the
+// scheduler's time), FAKE_HD_CALIBRATION (`update` becomes good once asked for, `manual` once
 // fake_hd_inkwell is called). The functions fake_hd_* are the test's hands on it.
 #include <atomic>
 #include <chrono>
@@ -43,14 +44,18 @@ std::thread scheduler;
 std::atomic<bool> running{false};
 
 bool is_set(const char* name) { return std::getenv(name) != nullptr; }
-Device* device_of(unsigned handle) { return handle < devices.size() && devices[handle].open ? &devices[handle] : nullptr; }
+Device* device_of(unsigned handle) {
+  return handle < devices.size() && devices[handle].open ? &devices[handle] : nullptr;
+}
 
 void run() {
   const auto begin = std::chrono::steady_clock::now();
   const char* after = std::getenv("FAKE_HD_ERROR_AFTER_MS");
-  for (auto next = begin; running; std::this_thread::sleep_until(next += std::chrono::milliseconds(1))) {
+  for (auto next = begin; running;
+       std::this_thread::sleep_until(next += std::chrono::milliseconds(1))) {
     const std::lock_guard lock(mutex);
-    const bool broken = after != nullptr && std::chrono::steady_clock::now() - begin > std::chrono::milliseconds(std::atoi(after));
+    const bool broken = after != nullptr && std::chrono::steady_clock::now() - begin >
+                                                std::chrono::milliseconds(std::atoi(after));
     for (auto i = tasks.begin(); i != tasks.end();) {
       if (broken) errors.push_back(0x0302);
       const Task task = i->second;
@@ -77,7 +82,8 @@ unsigned hdInitDevice(const char* name) {
     devices[i] = {.name = devices[i].name};
     devices[i].open = true;
     const char* calibration = std::getenv("FAKE_HD_CALIBRATION");
-    if (calibration != nullptr) devices[i].calibration = std::strcmp(calibration, "manual") == 0 ? 0x5002 : 0x5001;
+    if (calibration != nullptr)
+      devices[i].calibration = std::strcmp(calibration, "manual") == 0 ? 0x5002 : 0x5001;
     current = i;
     return i;
   }
@@ -122,7 +128,8 @@ void hdStopScheduler() {
   running = false;
   if (scheduler.joinable()) scheduler.join();
 }
-unsigned long hdScheduleAsynchronous(unsigned (*callback)(void*), void* data, unsigned short priority) {
+unsigned long hdScheduleAsynchronous(unsigned (*callback)(void*), void* data,
+                                     unsigned short priority) {
   const std::lock_guard lock(mutex);
   if (priority != 0xffff) errors.push_back(0x0500);
   tasks[next_task] = {callback, data};
@@ -179,7 +186,8 @@ unsigned hdCheckCalibration() {
 }
 void hdUpdateCalibration(unsigned style) {
   const std::lock_guard lock(mutex);
-  if (Device* d = device_of(current); d != nullptr && style == 4 && d->calibration == 0x5001) d->calibration = 0x5000;
+  if (Device* d = device_of(current); d != nullptr && style == 4 && d->calibration == 0x5001)
+    d->calibration = 0x5000;
 }
 
 void fake_hd_place(unsigned handle, const double* transform, int buttons) {

@@ -1,4 +1,5 @@
-// The self-check on a free arm inside the emulated Falcon: encoders through its kinematics, motors through its gears, libusb between.
+// The self-check on a free arm inside the emulated Falcon: encoders through its kinematics, motors
+// through its gears, libusb between.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -29,11 +30,13 @@ Vec3 force_of(const std::vector<std::int16_t>& motors, Vec3 at_mm) {
   const FalconDrive drive;
   std::array<double, 3> t{};
   for (std::size_t i = 0; i < 3; ++i) t[i] = -1e3 * motors[i] * drive.gear * drive.nm_per_count;
-  return (cross(j[1], j[2]) * t[0] + cross(j[2], j[0]) * t[1] + cross(j[0], j[1]) * t[2]) / dot(j[0], cross(j[1], j[2]));
+  return (cross(j[1], j[2]) * t[0] + cross(j[2], j[0]) * t[1] + cross(j[0], j[1]) * t[2]) /
+         dot(j[0], cross(j[1], j[2]));
 }
 
 TEST(FalconSelfCheck, FindsAWeakerMotor) {
-  if (!testing_device::EmulatedPedal::possible()) GTEST_SKIP() << "runs under umockdev-wrapper only: ctest does so";
+  if (!testing_device::EmulatedPedal::possible())
+    GTEST_SKIP() << "runs under umockdev-wrapper only: ctest does so";
   if (std::getenv("CAVUM_DEEP") == nullptr) GTEST_SKIP() << "takes two minutes: CAVUM_DEEP=1";
   const testing_basics::Folder folder;
   ::setenv("CAVUM_HOME", folder.file("").c_str(), 1);
@@ -48,7 +51,8 @@ TEST(FalconSelfCheck, FindsAWeakerMotor) {
     return std::make_unique<MovingArm>(
         model, k_falcon_middle_mm + Vec3{4, -5, 6},
         [&falcon, heard = std::int64_t{0}, since = std::chrono::steady_clock::now()]() mutable {
-          // motors that nobody speaks to let go, as the stylus does: a busy computer emulates the kernel in jerks
+          // motors that nobody speaks to let go, as the stylus does: a busy computer emulates the
+          // kernel in jerks
           constexpr auto k_patience = std::chrono::milliseconds(20);
           const auto now = std::chrono::steady_clock::now();
           if (const std::int64_t frames = falcon.frames(); frames != heard) {
@@ -63,10 +67,12 @@ TEST(FalconSelfCheck, FindsAWeakerMotor) {
   const auto first = testing_device::run("devices --self-check --stylus falcon --json");
   ASSERT_EQ(first.code, 0) << first.out;
   const json j = json::parse(first.out);
-  std::printf("FalconSelfCheck: %.1f s, mass %.4f kg (± %.1f %%), friction %.3f N, %.0f Hz, ticks missed %.2f %%\n",
-              j["figures"]["seconds"].get<double>(), j["figures"]["axes"]["x"]["mass_kg"].get<double>(),
-              200 * j["figures"]["axes"]["x"]["mass_error"].get<double>(), j["figures"]["friction_n"].get<double>(),
-              j["figures"]["rate_hz"].get<double>(), 100 * j["figures"]["ticks_missed"].get<double>());
+  std::printf(
+      "FalconSelfCheck: %.1f s, mass %.4f kg (± %.1f %%), friction %.3f N, %.0f Hz, ticks missed %.2f %%\n",
+      j["figures"]["seconds"].get<double>(), j["figures"]["axes"]["x"]["mass_kg"].get<double>(),
+      200 * j["figures"]["axes"]["x"]["mass_error"].get<double>(),
+      j["figures"]["friction_n"].get<double>(), j["figures"]["rate_hz"].get<double>(),
+      100 * j["figures"]["ticks_missed"].get<double>());
   EXPECT_LT(j["figures"]["seconds"], 60.0);
   testing_device::learn_like_the_last({"falcon", j["stylus"]["serial"]}, 12);
   moving.reset();

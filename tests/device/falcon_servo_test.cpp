@@ -1,5 +1,5 @@
-// The Falcon under a servo that works in real time: it presses on a block, is unplugged in the middle, and comes back. The session knows, and
-// replays.
+// The Falcon under a servo that works in real time: it presses on a block, is unplugged in the
+// middle, and comes back. The session knows, and replays.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -24,18 +24,22 @@ namespace {
 using namespace std::chrono_literals;
 
 TEST(FalconServo, UnpluggedWhilePressingTheForceFadesAndTheSessionGoesOn) {
-  if (!testing_device::EmulatedPedal::possible()) GTEST_SKIP() << "runs under umockdev-wrapper only: ctest does so";
+  if (!testing_device::EmulatedPedal::possible())
+    GTEST_SKIP() << "runs under umockdev-wrapper only: ctest does so";
   const testing_basics::Folder folder;
   ::setenv("CAVUM_HOME", folder.file("").c_str(), 1);
   const std::string data = std::string(CAVUM_SOURCE_DIR) + "/data/", path = folder.file("s.cavum");
-  const SessionSetup setup = servo_rig_setup(read_text_file(data + "burs/round-1.0.toml"), read_text_file(data + "materials/consistent.toml"), 1e-3);
+  const SessionSetup setup =
+      servo_rig_setup(read_text_file(data + "burs/round-1.0.toml"),
+                      read_text_file(data + "materials/consistent.toml"), 1e-3);
 
   testing_device::EmulatedFalcon falcon;
   StationStylus station = usual_station_stylus(falcon_kind());
   Simulation simulation = make_simulation(setup, path);
   const double top_mm = setup.first_tip_mm().z;
   FalconStylus stylus(station);
-  const auto hand = [&](double z_mm) {  // tooth frame; the usual placement has z up and the middle 120 mm in front
+  const auto hand = [&](double z_mm) {  // tooth frame; the usual placement has z up and the middle
+                                        // 120 mm in front
     falcon.move_to(k_falcon_middle_mm + Vec3{0, z_mm, 0});
   };
   hand(top_mm);
@@ -44,14 +48,16 @@ TEST(FalconServo, UnpluggedWhilePressingTheForceFadesAndTheSessionGoesOn) {
 
   Recorder recorder = Recorder::create(path, setup);
   TickStream stream;
-  RealTimeServo servo(simulation.model, simulation.state, stylus, stream, make_tick_input(first, 0, k_stylus_fresh, 0, {}));
+  RealTimeServo servo(simulation.model, simulation.state, stylus, stream,
+                      make_tick_input(first, 0, k_stylus_fresh, 0, {}));
   std::atomic<double> force_n{0.0};
   std::atomic<std::int64_t> tick{0};
-  SessionWriter writer(stream, recorder, 1e-3, [&](const ServoTick& t, std::span<const RemovedLeaf>) {
-    tick = t.tick;
-    force_n = length(t.output.rendered_force_n);
-    return true;
-  });
+  SessionWriter writer(stream, recorder, 1e-3,
+                       [&](const ServoTick& t, std::span<const RemovedLeaf>) {
+                         tick = t.tick;
+                         force_n = length(t.output.rendered_force_n);
+                         return true;
+                       });
   servo.start();
   writer.start();
   const auto comes_true = [](const auto& condition) {
@@ -78,7 +84,8 @@ TEST(FalconServo, UnpluggedWhilePressingTheForceFadesAndTheSessionGoesOn) {
   EXPECT_TRUE(servo.running()) << "the exam waits for it";
   const std::int64_t silent = tick;
   falcon.plug_in();
-  EXPECT_TRUE(comes_true([&] { return force_n > 0.2 && pushes(); })) << testing_basics::text_of(stylus.health().problem);
+  EXPECT_TRUE(comes_true([&] { return force_n > 0.2 && pushes(); }))
+      << testing_basics::text_of(stylus.health().problem);
   servo.ask_to_stop();
   servo.join();
   EXPECT_TRUE(comes_true([&] { return !pushes(); })) << "no force after the end";

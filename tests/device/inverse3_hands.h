@@ -1,4 +1,5 @@
-// What the tests of the Inverse3 share: its settings for the emulated service, and a servo that wants a force.
+// What the tests of the Inverse3 share: its settings for the emulated service, and a servo that
+// wants a force.
 #pragma once
 
 #include <atomic>
@@ -16,7 +17,8 @@ namespace cavum::testing_device {
 using testing_basics::comes_true;
 
 /// In the device's own frame: what goes in comes out.
-inline StationStylus own_frame(const EmulatedInverse3& service, const std::string& device = {}, const std::string& grip = {}) {
+inline StationStylus own_frame(const EmulatedInverse3& service, const std::string& device = {},
+                               const std::string& grip = {}) {
   StationStylus s = usual_station_stylus(inverse3_kind());
   s.placement = {};
   s.settings["port"] = static_cast<double>(service.port());
@@ -30,7 +32,8 @@ class Servo {
  public:
   Servo(Stylus& stylus, Vec3 force_n)
       : thread_([this, &stylus, force_n] {
-          for (; !stop_; std::this_thread::sleep_for(std::chrono::milliseconds(1))) stylus.send_force(force_n);
+          for (; !stop_; std::this_thread::sleep_for(std::chrono::milliseconds(1)))
+            stylus.send_force(force_n);
         }) {}
   ~Servo() {
     stop_ = true;

@@ -1,4 +1,5 @@
-// What the servo asks of an Inverse3 in each step neither allocates nor waits, whatever the line does. Replaces operator new in this test program.
+// What the servo asks of an Inverse3 in each step neither allocates nor waits, whatever the line
+// does. Replaces operator new in this test program.
 #include <gtest/gtest.h>
 
 #include "tests/allocation/counted_new.h"
@@ -27,7 +28,8 @@ TEST(Inverse3Servo, ReadingAndPushingNeitherAllocateNorWait) {
     t_counting = false;
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - from;
     EXPECT_EQ(t_allocations, 0);
-    EXPECT_LT(took.count() / k_steps, 50e-6) << "a twentieth of a tick, on a computer that has other work";
+    EXPECT_LT(took.count() / k_steps, 50e-6)
+        << "a twentieth of a tick, on a computer that has other work";
     EXPECT_TRUE(is_finite(sum));
   }
   t_counting = true;

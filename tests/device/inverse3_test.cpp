@@ -1,4 +1,5 @@
-// The Inverse3's stylus on the emulated service: places, directions and forces in the right axes and units; and no force whenever something is wrong.
+// The Inverse3's stylus on the emulated service: places, directions and forces in the right axes
+// and units; and no force whenever something is wrong.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -53,7 +54,8 @@ TEST_F(Inverse3, PlaceDirectionAndButtonsAreTheDevices) {
       r = stylus.read(1e-3);
       return (r.flags & k_stylus_fresh) != 0 && length(r.pose.tip_mm - at_m * 1000.0) < 1e-6;
     })) << text_of(stylus.health().problem);
-    const Vec3 handle = rotation(r.pose.rotation) * Vec3{0, 0, 1}, points = rotation(q) * Vec3{0, 1, 0};
+    const Vec3 handle = rotation(r.pose.rotation) * Vec3{0, 0, 1},
+               points = rotation(q) * Vec3{0, 1, 0};
     EXPECT_LT(length(handle + points), 1e-6) << "the handle lies where the grip does not point";
     EXPECT_EQ((r.flags & k_button_1) != 0, a);
     EXPECT_EQ((r.flags & k_button_2) != 0, b);
@@ -67,7 +69,8 @@ TEST_F(Inverse3, TheUsualPlacementIsWhatTheCandidateSees) {
   Inverse3Stylus stylus(usual);
   const auto tip = [&](Vec3 at_m) {
     service_.move_to(at_m);
-    static_cast<void>(comes_true([&, n = stylus.health().readings] { return stylus.health().readings > n + 5; }));
+    static_cast<void>(
+        comes_true([&, n = stylus.health().readings] { return stylus.health().readings > n + 5; }));
     return stylus.read(1e-3).pose.tip_mm;
   };
   const Vec3 middle_m{0, -0.12, 0.15};
@@ -79,11 +82,14 @@ TEST_F(Inverse3, TheUsualPlacementIsWhatTheCandidateSees) {
 
 TEST_F(Inverse3, ForcesArriveInItsAxesAndInTheFormOfItsVersion) {
   StationStylus turned_by_90 = own_frame(service_);
-  turned_by_90.placement.rotation = rotation_of({0, 1, 0}, {-1, 0, 0}, {0, 0, 1});  // its x is the tooth's y
+  turned_by_90.placement.rotation =
+      rotation_of({0, 1, 0}, {-1, 0, 0}, {0, 0, 1});  // its x is the tooth's y
   {
     Inverse3Stylus stylus(turned_by_90);
     const Servo servo(stylus, {1.0, 2.0, -0.5});
-    EXPECT_TRUE(comes_true([&] { return length(service_.force_n() - Vec3{2.0, -1.0, -0.5}) < 1e-3; })) << text_of(stylus.health().problem);
+    EXPECT_TRUE(comes_true([&] {
+      return length(service_.force_n() - Vec3{2.0, -1.0, -0.5}) < 1e-3;
+    })) << text_of(stylus.health().problem);
     EXPECT_EQ(service_.told().name, "vector");
   }
   EmulatedInverse3 older(false);
@@ -144,24 +150,30 @@ TEST_F(Inverse3, ASilenceOf100msIsAnsweredWithNoForceAndWhenItSpeaksAgainItIsTak
   EXPECT_TRUE(becomes(stylus, DeviceError::silent));
   EXPECT_EQ(stylus.health().unplugged, 1);
   service_.answer_with(Answer::state);
-  EXPECT_TRUE(comes_true([&] { return ready(stylus) && fresh(stylus) && service_.force_n().x == 1.0; })) << text_of(stylus.health().problem);
+  EXPECT_TRUE(comes_true([&] {
+    return ready(stylus) && fresh(stylus) && service_.force_n().x == 1.0;
+  })) << text_of(stylus.health().problem);
 }
 
 TEST_F(Inverse3, WhatIsNoMessageEndsInNoForceAndIsGotOver) {
-  for (const auto answer : {Answer::no_json, Answer::cut_short, Answer::another_json, Answer::too_large, Answer::too_deep, Answer::bytes,
-                            Answer::far_away, Answer::half}) {
+  for (const auto answer :
+       {Answer::no_json, Answer::cut_short, Answer::another_json, Answer::too_large,
+        Answer::too_deep, Answer::bytes, Answer::far_away, Answer::half}) {
     const auto which = static_cast<int>(answer);
     Inverse3Stylus stylus(own_frame(service_));
     const Servo servo(stylus, {1, 0, 0});
     ASSERT_TRUE(comes_true([&] { return service_.force_n().x == 1.0; })) << which;
     service_.answer_with(answer);
-    EXPECT_TRUE(becomes(stylus, answer == Answer::half ? DeviceError::silent : DeviceError::malformed_message))
+    EXPECT_TRUE(becomes(
+        stylus, answer == Answer::half ? DeviceError::silent : DeviceError::malformed_message))
         << which << ": " << text_of(stylus.health().problem);
     EXPECT_TRUE(comes_true([&] { return length(service_.force_n()) == 0.0; })) << which;
     EXPECT_TRUE(comes_true([&] { return !fresh(stylus); })) << which;
     service_.answer_with(Answer::state);
-    EXPECT_TRUE(comes_true([&] { return ready(stylus) && fresh(stylus) && service_.force_n().x == 1.0; }))
-        << which << ": " << text_of(stylus.health().problem);
+    EXPECT_TRUE(comes_true([&] {
+      return ready(stylus) && fresh(stylus) && service_.force_n().x == 1.0;
+    })) << which
+        << ": " << text_of(stylus.health().problem);
   }
 }
 
@@ -169,7 +181,8 @@ TEST_F(Inverse3, AMessageInTwoPartsIsOneMessage) {
   service_.answer_with(Answer::in_two_parts);
   Inverse3Stylus stylus(own_frame(service_));
   service_.move_to({0.02, 0, 0});
-  EXPECT_TRUE(comes_true([&] { return std::fabs(stylus.read(1e-3).pose.tip_mm.x - 20.0) < 1e-9; })) << text_of(stylus.health().problem);
+  EXPECT_TRUE(comes_true([&] { return std::fabs(stylus.read(1e-3).pose.tip_mm.x - 20.0) < 1e-9; }))
+      << text_of(stylus.health().problem);
   EXPECT_EQ(stylus.health().unplugged, 0);
 }
 
@@ -179,12 +192,14 @@ TEST_F(Inverse3, ALineThatIsCutAndAServiceThatIsBegunAgainAreTakenUp) {
   ASSERT_TRUE(comes_true([&] { return service_.force_n().x == 1.0; }));
   service_.cut();
   ASSERT_TRUE(comes_true([&] { return stylus.health().unplugged == 1; }));
-  ASSERT_TRUE(comes_true([&] { return stylus.health().plugged_in == 2 && service_.force_n().x == 1.0; }));
+  ASSERT_TRUE(
+      comes_true([&] { return stylus.health().plugged_in == 2 && service_.force_n().x == 1.0; }));
   service_.stop();
   EXPECT_TRUE(becomes(stylus, DeviceError::no_service)) << text_of(stylus.health().problem);
   EXPECT_TRUE(comes_true([&] { return !fresh(stylus); }));
   service_.start();
-  EXPECT_TRUE(comes_true([&] { return ready(stylus) && fresh(stylus) && service_.force_n().x == 1.0; }));
+  EXPECT_TRUE(
+      comes_true([&] { return ready(stylus) && fresh(stylus) && service_.force_n().x == 1.0; }));
   EXPECT_EQ(stylus.health().plugged_in, 3);
 }
 
@@ -196,28 +211,38 @@ TEST_F(Inverse3, OfTwoDevicesOneIsChosenAndBothCanBeOpen) {
   {
     const Inverse3Stylus any(own_frame(service_));
     EXPECT_TRUE(becomes(any, DeviceError::several)) << text_of(any.health().problem);
-    for (const char* there : {"049D", "AAAA"}) EXPECT_TRUE(tells(any.health().problem, there)) << text_of(any.health().problem);
+    for (const char* there : {"049D", "AAAA"})
+      EXPECT_TRUE(tells(any.health().problem, there)) << text_of(any.health().problem);
     const Inverse3Stylus other(own_frame(service_, "BBBB"));
     EXPECT_TRUE(becomes(other, DeviceError::not_there)) << text_of(other.health().problem);
     const Inverse3Stylus no_grip(own_frame(service_, "AAAA"));
     EXPECT_TRUE(becomes(no_grip, DeviceError::several)) << text_of(no_grip.health().problem);
   }
-  Inverse3Stylus left(own_frame(service_, "049D", "61548")), right(own_frame(service_, "AAAA", "70000"));
-  EXPECT_TRUE(comes_true([&] { return std::fabs(right.read(1e-3).pose.tip_mm.x - 30.0) < 1e-9 && left.read(1e-3).pose.tip_mm.x == 0.0; }));
+  Inverse3Stylus left(own_frame(service_, "049D", "61548")),
+      right(own_frame(service_, "AAAA", "70000"));
+  EXPECT_TRUE(comes_true([&] {
+    return std::fabs(right.read(1e-3).pose.tip_mm.x - 30.0) < 1e-9 &&
+           left.read(1e-3).pose.tip_mm.x == 0.0;
+  }));
   const Servo left_servo(left, {1, 0, 0}), right_servo(right, {0, 2, 0});
-  EXPECT_TRUE(comes_true([&] { return service_.force_n("049D") == (Vec3{1, 0, 0}) && service_.force_n("AAAA") == (Vec3{0, 2, 0}); }));
+  EXPECT_TRUE(comes_true([&] {
+    return service_.force_n("049D") == (Vec3{1, 0, 0}) &&
+           service_.force_n("AAAA") == (Vec3{0, 2, 0});
+  }));
 }
 
 TEST_F(Inverse3, WithoutPowerCalibrationGripOrDeviceThereIsNoForceAndItSaysWhy) {
-  using Change = std::function<void(std::map<std::string, EmulatedInverse3::Device>&, std::map<std::string, EmulatedInverse3::Grip>&)>;
-  const std::vector<std::pair<Change, DeviceError>> wrongs{{[](auto& d, auto&) { d["049D"].powered = false; }, DeviceError::no_power},
-                                                           {[](auto& d, auto&) { d["049D"].calibrated = false; }, DeviceError::needs_calibration},
-                                                           {[](auto&, auto& g) { g.clear(); }, DeviceError::not_there},
-                                                           {[](auto&, auto& g) {
-                                                              g["61548"].orientation = {0, 0, 0, 0};
-                                                            },
-                                                            DeviceError::no_direction},
-                                                           {[](auto& d, auto&) { d.clear(); }, DeviceError::not_there}};
+  using Change = std::function<void(std::map<std::string, EmulatedInverse3::Device>&,
+                                    std::map<std::string, EmulatedInverse3::Grip>&)>;
+  const std::vector<std::pair<Change, DeviceError>> wrongs{
+      {[](auto& d, auto&) { d["049D"].powered = false; }, DeviceError::no_power},
+      {[](auto& d, auto&) { d["049D"].calibrated = false; }, DeviceError::needs_calibration},
+      {[](auto&, auto& g) { g.clear(); }, DeviceError::not_there},
+      {[](auto&, auto& g) {
+         g["61548"].orientation = {0, 0, 0, 0};
+       },
+       DeviceError::no_direction},
+      {[](auto& d, auto&) { d.clear(); }, DeviceError::not_there}};
   for (const auto& [wrong, problem] : wrongs) {
     const auto which = static_cast<int>(problem);
     Inverse3Stylus stylus(own_frame(service_));
@@ -231,7 +256,8 @@ TEST_F(Inverse3, WithoutPowerCalibrationGripOrDeviceThereIsNoForceAndItSaysWhy) 
       devices = {{"049D", {}}};
       grips = {{"61548", {}}};
     });
-    EXPECT_TRUE(comes_true([&] { return ready(stylus) && service_.force_n().x == 1.0; })) << which << ": " << text_of(stylus.health().problem);
+    EXPECT_TRUE(comes_true([&] { return ready(stylus) && service_.force_n().x == 1.0; }))
+        << which << ": " << text_of(stylus.health().problem);
   }
 }
 
@@ -242,7 +268,8 @@ TEST_F(Inverse3, WithNoGripTheHandpieceIsHeldAsThePlacementSays) {
   Inverse3Stylus stylus(station);
   EXPECT_FALSE(stylus.facts().measures_direction);
   ASSERT_TRUE(comes_true([&] { return fresh(stylus); })) << text_of(stylus.health().problem);
-  EXPECT_LT(length(rotation(stylus.read(1e-3).pose.rotation) * Vec3{0, 0, 1} - Vec3{0, -1, 0}), 1e-12);
+  EXPECT_LT(length(rotation(stylus.read(1e-3).pose.rotation) * Vec3{0, 0, 1} - Vec3{0, -1, 0}),
+            1e-12);
 }
 
 TEST_F(Inverse3, ALookFindsItOrSaysWhy) {
@@ -257,7 +284,8 @@ TEST_F(Inverse3, ALookFindsItOrSaysWhy) {
   const StylusLook none = kind.look(own_frame(service_), true);
   EXPECT_FALSE(none.there);
   EXPECT_EQ(code_of(none.problem), DeviceError::no_service) << text_of(none.problem);
-  EXPECT_EQ(kind.serial(own_frame(service_, "049D")), "049D") << "the one that the station has chosen";
+  EXPECT_EQ(kind.serial(own_frame(service_, "049D")), "049D")
+      << "the one that the station has chosen";
 }
 
 }  // namespace

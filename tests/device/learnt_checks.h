@@ -1,4 +1,5 @@
-// A history of a station that was checked often, made of one real check and the scatter of days: what stands in it is signed as any other.
+// A history of a station that was checked often, made of one real check and the scatter of days:
+// what stands in it is signed as any other.
 #pragma once
 
 #include <random>

@@ -1,4 +1,5 @@
-// A free arm inside an emulated device, by the clock: what the device was told to push moves it, and where it stands is what the device tells.
+// A free arm inside an emulated device, by the clock: what the device was told to push moves it,
+// and where it stands is what the device tells.
 #pragma once
 
 #include <algorithm>
@@ -17,20 +18,26 @@ class MovingArm {
  public:
   using Model = testing_selfcheck::ArmModel;
   /// `told_n`: the force that the device gives now; `move_to_mm`: where it stands from now on.
-  MovingArm(const Model& model, Vec3 at_mm, std::function<Vec3()> told_n, std::function<void(Vec3)> move_to_mm)
-      : told_n_(std::move(told_n)), move_to_mm_(std::move(move_to_mm)), arm_(model, at_mm, 1), thread_([this] { run(); }) {}
+  MovingArm(const Model& model, Vec3 at_mm, std::function<Vec3()> told_n,
+            std::function<void(Vec3)> move_to_mm)
+      : told_n_(std::move(told_n)),
+        move_to_mm_(std::move(move_to_mm)),
+        arm_(model, at_mm, 1),
+        thread_([this] { run(); }) {}
   ~MovingArm() {
     stop_ = true;
     thread_.join();
   }
-  /// Moves it to where it stands now, by the force told until now. A device that calls this before it hears and tells is never ahead of its arm,
-  /// however late the arm's own thread is woken.
+  /// Moves it to where it stands now, by the force told until now. A device that calls this before
+  /// it hears and tells is never ahead of its arm, however late the arm's own thread is woken.
   void catch_up() {
     constexpr double k_longest_s = 0.05;
     const std::lock_guard lock(mutex_);
     const auto now = Clock::now();
     arm_.send_force(told_n_());
-    move_to_mm_(arm_.read(std::min(k_longest_s, std::chrono::duration<double>(now - moved_).count())).pose.tip_mm);
+    move_to_mm_(
+        arm_.read(std::min(k_longest_s, std::chrono::duration<double>(now - moved_).count()))
+            .pose.tip_mm);
     moved_ = now;
   }
   MovingArm(const MovingArm&) = delete;
@@ -39,7 +46,8 @@ class MovingArm {
  private:
   using Clock = std::chrono::steady_clock;
   void run() {
-    static_cast<void>(ask_for_fifo(70));  // where the system allows it: an arm of metal waits for nobody
+    static_cast<void>(
+        ask_for_fifo(70));  // where the system allows it: an arm of metal waits for nobody
     ask_for_sharp_timers();
     for (; !stop_; std::this_thread::sleep_for(std::chrono::microseconds(300))) catch_up();
     const std::lock_guard lock(mutex_);

@@ -1,4 +1,5 @@
-// OpenHaptics at run time, against a library of ours with its names (fake_hd.cpp): what was loaded, begun, calibrated, asked and sent.
+// OpenHaptics at run time, against a library of ours with its names (fake_hd.cpp): what was loaded,
+// begun, calibrated, asked and sent.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
@@ -26,9 +27,13 @@ using testing_basics::thrown_by;
 /// The test's hands on the library that the stylus has loaded.
 struct Hands {
   void* file = ::dlopen(FAKE_HD, RTLD_NOW | RTLD_LOCAL);
-  void (*place)(unsigned, const double*, int) = reinterpret_cast<void (*)(unsigned, const double*, int)>(::dlsym(file, "fake_hd_place"));
-  void (*inkwell)(unsigned) = reinterpret_cast<void (*)(unsigned)>(::dlsym(file, "fake_hd_inkwell"));
-  long (*force)(unsigned, double*) = reinterpret_cast<long (*)(unsigned, double*)>(::dlsym(file, "fake_hd_force"));
+  void (*place)(unsigned, const double*, int) =
+      reinterpret_cast<void (*)(unsigned, const double*, int)>(::dlsym(file, "fake_hd_place"));
+  void (*inkwell)(unsigned) = reinterpret_cast<void (*)(unsigned)>(::dlsym(file,
+                                                                           "fake_hd_inkwell"));
+  long (*force)(unsigned,
+                double*) = reinterpret_cast<long (*)(unsigned, double*)>(::dlsym(file,
+                                                                                 "fake_hd_force"));
 
   [[nodiscard]] Vec3 force_n(unsigned device) const {
     double f[3];
@@ -54,9 +59,12 @@ class OpenHaptics : public ::testing::Test {
   void SetUp() override { forget(); }
   void TearDown() override { forget(); }
   static void forget() {
-    for (const char* name : {"FAKE_HD_NO_DEVICE", "FAKE_HD_ERROR_AFTER_MS", "FAKE_HD_CALIBRATION"}) ::unsetenv(name);
+    for (const char* name : {"FAKE_HD_NO_DEVICE", "FAKE_HD_ERROR_AFTER_MS", "FAKE_HD_CALIBRATION"})
+      ::unsetenv(name);
   }
-  static std::optional<ErrorCode> wrong(const Stylus& stylus) { return code_of(stylus.health().problem); }
+  static std::optional<ErrorCode> wrong(const Stylus& stylus) {
+    return code_of(stylus.health().problem);
+  }
   static bool ready(const Stylus& stylus) { return !stylus.health().problem; }
   Hands hands_;
 };
@@ -74,7 +82,9 @@ TEST_F(OpenHaptics, WithoutTheLibraryItSaysSo) {
 
 TEST_F(OpenHaptics, ADeviceThatDoesNotBeginIsNamed) {
   ::setenv("FAKE_HD_NO_DEVICE", "1", 1);
-  const auto begin = [](const std::string& name) { return [name] { const OpenHapticsStylus s(station(name)); }; };
+  const auto begin = [](const std::string& name) {
+    return [name] { const OpenHapticsStylus s(station(name)); };
+  };
   EXPECT_EQ(code_of(begin("")), DeviceError::refuses);
   EXPECT_TRUE(tells(thrown_by(begin("")), "0x0300")) << "the number of its maker's driver";
   ::unsetenv("FAKE_HD_NO_DEVICE");
@@ -96,15 +106,17 @@ TEST_F(OpenHaptics, PlaceDirectionAndButtonsAreTheDevices) {
     const Quat q = normalized(Quat{n(random), n(random), n(random), n(random)});
     const Mat3 m = rotation(q);
     const Vec3 at{20 * n(random), 20 * n(random), 20 * n(random)};
-    const double transform[16] = {m.row_x.x, m.row_y.x, m.row_z.x, 0, m.row_x.y, m.row_y.y, m.row_z.y, 0,
-                                  m.row_x.z, m.row_y.z, m.row_z.z, 0, at.x,      at.y,      at.z,      1};
+    const double transform[16] = {m.row_x.x, m.row_y.x, m.row_z.x, 0,         m.row_x.y, m.row_y.y,
+                                  m.row_z.y, 0,         m.row_x.z, m.row_y.z, m.row_z.z, 0,
+                                  at.x,      at.y,      at.z,      1};
     hands_.place(0, transform, i % 4);
     DeviceReading r;
     ASSERT_TRUE(comes_true([&] {
       r = stylus.read(1e-3);
       return length(r.pose.tip_mm - at) < 1e-12 && (r.flags & k_stylus_fresh) != 0;
     })) << text_of(stylus.health().problem);
-    EXPECT_LT(length(rotation(r.pose.rotation) * Vec3{0, 0, 1} - m * Vec3{0, 0, 1}), 1e-12) << "towards the handle";
+    EXPECT_LT(length(rotation(r.pose.rotation) * Vec3{0, 0, 1} - m * Vec3{0, 0, 1}), 1e-12)
+        << "towards the handle";
     EXPECT_LT(length(rotation(r.pose.rotation) * Vec3{1, 0, 0} - m * Vec3{1, 0, 0}), 1e-12);
     EXPECT_EQ((r.flags & k_button_1) != 0, i % 4 % 2 == 1);
     EXPECT_EQ((r.flags & k_button_2) != 0, i % 4 >= 2);
@@ -141,7 +153,8 @@ TEST_F(OpenHaptics, ForceEndsWhenItIsCutWhenNobodyRenewsItAndAtTheEnd) {
       });
     };
     ASSERT_TRUE(pushed());
-    EXPECT_TRUE(comes_true([&] { return hands_.force_n(0).z == 0.0; })) << "a servo that fell silent";
+    EXPECT_TRUE(comes_true([&] { return hands_.force_n(0).z == 0.0; }))
+        << "a servo that fell silent";
     ASSERT_TRUE(pushed());
     stylus.send_force({0, 0, 1});
     stylus.cut_force();
@@ -154,7 +167,8 @@ TEST_F(OpenHaptics, ForceEndsWhenItIsCutWhenNobodyRenewsItAndAtTheEnd) {
 TEST_F(OpenHaptics, NotCalibratedItGivesNoPlaceAndNoForce) {
   ::setenv("FAKE_HD_CALIBRATION", "manual", 1);
   OpenHapticsStylus stylus(station());
-  ASSERT_TRUE(comes_true([&] { return wrong(stylus) == DeviceError::needs_calibration; })) << text_of(stylus.health().problem);
+  ASSERT_TRUE(comes_true([&] { return wrong(stylus) == DeviceError::needs_calibration; }))
+      << text_of(stylus.health().problem);
   stylus.send_force({0, 0, 1});
   std::this_thread::sleep_for(30ms);
   EXPECT_EQ(hands_.force_n(0).z, 0.0);
@@ -175,34 +189,43 @@ TEST_F(OpenHaptics, LostInTheMiddleItIsNotFreshAndSaysSo) {
   OpenHapticsStylus stylus(station());
   const auto fresh = [&] { return (stylus.read(1e-3).flags & k_stylus_fresh) != 0; };
   ASSERT_TRUE(comes_true(fresh));
-  ASSERT_TRUE(comes_true([&] { return wrong(stylus) == DeviceError::lost; })) << text_of(stylus.health().problem);
+  ASSERT_TRUE(comes_true([&] { return wrong(stylus) == DeviceError::lost; }))
+      << text_of(stylus.health().problem);
   EXPECT_TRUE(comes_true([&] { return !fresh(); }));
   EXPECT_FALSE(ready(stylus));
 }
 
 TEST_F(OpenHaptics, TwoDevicesAreTwo) {
   OpenHapticsStylus one(station()), left(station("left"));
-  ASSERT_TRUE(comes_true([&] { return ready(one) && ready(left); })) << text_of(one.health().problem) << text_of(left.health().problem);
-  const double here[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1}, there[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -7, -8, -9, 1};
+  ASSERT_TRUE(comes_true([&] { return ready(one) && ready(left); }))
+      << text_of(one.health().problem) << text_of(left.health().problem);
+  const double here[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1},
+               there[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -7, -8, -9, 1};
   hands_.place(0, here, 0);
   hands_.place(1, there, 0);
-  EXPECT_TRUE(comes_true([&] { return one.read(1e-3).pose.tip_mm == Vec3{1, 2, 3} && left.read(1e-3).pose.tip_mm == Vec3{-7, -8, -9}; }));
+  EXPECT_TRUE(comes_true([&] {
+    return one.read(1e-3).pose.tip_mm == Vec3{1, 2, 3} &&
+           left.read(1e-3).pose.tip_mm == Vec3{-7, -8, -9};
+  }));
   EXPECT_TRUE(comes_true([&] {
     one.send_force({1, 0, 0});
     left.send_force({0, 1, 0});
     return hands_.force_n(0) == Vec3{1, 0, 0} && hands_.force_n(1) == Vec3{0, 1, 0};
   }));
-  EXPECT_EQ(code_of([] { const OpenHapticsStylus again(station("left")); }), DeviceError::refuses) << "one that is in use already";
+  EXPECT_EQ(code_of([] { const OpenHapticsStylus again(station("left")); }), DeviceError::refuses)
+      << "one that is in use already";
 }
 
 TEST_F(OpenHaptics, ExchangesOnceInEachOfItsFrames) {
   OpenHapticsStylus stylus(station());
-  ASSERT_TRUE(comes_true([&] { return stylus.health().readings > 1500; })) << text_of(stylus.health().problem);
+  ASSERT_TRUE(comes_true([&] { return stylus.health().readings > 1500; }))
+      << text_of(stylus.health().problem);
   const StylusHealth h = stylus.health();
   const long frames = hands_.frames(0);
   EXPECT_LE(h.readings, frames);
   EXPECT_GE(h.readings, frames - 500) << "every frame gives a place";
-  std::printf("%.0f exchanges a second, scatter %.3f ms, longest gap %.1f ms\n", 1 / h.mean_period_s, 1e3 * h.jitter_s, 1e3 * h.longest_gap_s);
+  std::printf("%.0f exchanges a second, scatter %.3f ms, longest gap %.1f ms\n",
+              1 / h.mean_period_s, 1e3 * h.jitter_s, 1e3 * h.longest_gap_s);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The pedal under a servo that cuts in real time: what is unplugged stops the handpiece, is recorded, and comes back.
+// The pedal under a servo that cuts in real time: what is unplugged stops the handpiece, is
+// recorded, and comes back.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -28,10 +29,13 @@ TEST(PedalServo, UnpluggedWhileCuttingTheHandpieceStopsAndTheSessionKnows) {
   const testing_basics::Folder folder;
   ::setenv("CAVUM_HOME", folder.file("").c_str(), 1);
   const std::string data = std::string(CAVUM_SOURCE_DIR) + "/data/", path = folder.file("s.cavum");
-  const SessionSetup setup = servo_rig_setup(read_text_file(data + "burs/round-1.0.toml"), read_text_file(data + "materials/consistent.toml"), 1e-3);
+  const SessionSetup setup =
+      servo_rig_setup(read_text_file(data + "burs/round-1.0.toml"),
+                      read_text_file(data + "materials/consistent.toml"), 1e-3);
 
   EmulatedPedal plug;
-  HidPedal pedal(0x068e, 0x00f2, {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = false});
+  HidPedal pedal(0x068e, 0x00f2,
+                 {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = false});
   std::atomic<bool> pressed{true}, stop{false};
   Simulation simulation = make_simulation(setup, path);
   Recorder recorder = Recorder::create(path, setup);
@@ -42,12 +46,13 @@ TEST(PedalServo, UnpluggedWhileCuttingTheHandpieceStopsAndTheSessionKnows) {
   RealTimeServo servo(simulation.model, simulation.state, device, stream, first);
   std::atomic<std::int64_t> tick{0}, last_turning{0};
   std::atomic<double> rpm{0.0};
-  SessionWriter writer(stream, recorder, 1e-3, [&](const ServoTick& t, std::span<const RemovedLeaf>) {
-    tick = t.tick;
-    rpm = t.output.rpm;
-    if (t.output.rpm > 0) last_turning = t.tick;
-    return true;
-  });
+  SessionWriter writer(stream, recorder, 1e-3,
+                       [&](const ServoTick& t, std::span<const RemovedLeaf>) {
+                         tick = t.tick;
+                         rpm = t.output.rpm;
+                         if (t.output.rpm > 0) last_turning = t.tick;
+                         return true;
+                       });
   std::thread foot([&] {
     while (!stop) {
       if (pressed) plug.report_axes(255, 0, 0);

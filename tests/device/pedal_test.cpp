@@ -1,5 +1,5 @@
-// The real hidapi on an emulated pedal: found, read at 1 kHz without a gap, unplugged and plugged in again, silent, and
-// with descriptors that make no sense.
+// The real hidapi on an emulated pedal: found, read at 1 kHz without a gap, unplugged and plugged
+// in again, silent, and with descriptors that make no sense.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -25,7 +25,8 @@ using EmulatedPedal = testing_device::ThePedal;
 class PedalTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!EmulatedPedal::possible()) GTEST_SKIP() << "runs under umockdev-wrapper only: ctest does so";
+    if (!EmulatedPedal::possible())
+      GTEST_SKIP() << "runs under umockdev-wrapper only: ctest does so";
   }
 };
 
@@ -52,7 +53,8 @@ TEST_F(PedalTest, PresentButSilentIsUnknown) {
 
 TEST_F(PedalTest, ReadsTheCalibratedAxisAndGoesStale) {
   EmulatedPedal pedal;
-  HidPedal reader(0x068e, 0x00f2, {.axis = 1, .released = 200, .pressed = 100, .speaks_on_change = false});
+  HidPedal reader(0x068e, 0x00f2,
+                  {.axis = 1, .released = 200, .pressed = 100, .speaks_on_change = false});
   ASSERT_TRUE(comes_true([&] { return !reader.problem(); })) << text_of(reader.problem());
   pedal.report_axes(7, 150, 9);
   ASSERT_TRUE(comes_true([&] { return std::abs(reader.read().position - 0.5) < 1e-4; }));
@@ -64,7 +66,8 @@ TEST_F(PedalTest, ReadsTheCalibratedAxisAndGoesStale) {
 
 TEST_F(PedalTest, OneThatSpeaksOnChangeHoldsWhileItIsPluggedIn) {
   EmulatedPedal pedal;
-  HidPedal reader(0x068e, 0x00f2, {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = true});
+  HidPedal reader(0x068e, 0x00f2,
+                  {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = true});
   ASSERT_TRUE(comes_true([&] { return !reader.problem(); })) << text_of(reader.problem());
   EXPECT_FALSE(reader.read().fresh) << "nothing heard yet";
   pedal.report_axes(255, 0, 0);
@@ -78,7 +81,8 @@ TEST_F(PedalTest, OneThatSpeaksOnChangeHoldsWhileItIsPluggedIn) {
 
 TEST_F(PedalTest, ThreeThousandReportsArriveWithoutAGap) {
   EmulatedPedal pedal;
-  HidPedal reader(0x068e, 0x00f2, {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = false});
+  HidPedal reader(0x068e, 0x00f2,
+                  {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = false});
   ASSERT_TRUE(comes_true([&] { return !reader.problem(); })) << text_of(reader.problem());
   constexpr int k_reports = 3000;
   auto next = std::chrono::steady_clock::now();
@@ -90,12 +94,14 @@ TEST_F(PedalTest, ThreeThousandReportsArriveWithoutAGap) {
   ASSERT_TRUE(comes_true([&] { return reader.counts().reports >= k_reports; }));
   EXPECT_EQ(reader.counts().reports, k_reports);
   EXPECT_EQ(reader.counts().foreign_reports, 0);
-  std::printf("longest gap between two of %d reports sent each millisecond: %.1f ms\n", k_reports, 1e3 * reader.counts().longest_gap_s);
+  std::printf("longest gap between two of %d reports sent each millisecond: %.1f ms\n", k_reports,
+              1e3 * reader.counts().longest_gap_s);
 }
 
 TEST_F(PedalTest, UnpluggedIsUnknownWithin50msAndComesBack) {
   EmulatedPedal pedal;
-  HidPedal reader(0x068e, 0x00f2, {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = false});
+  HidPedal reader(0x068e, 0x00f2,
+                  {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = false});
   ASSERT_TRUE(comes_true([&] { return !reader.problem(); })) << text_of(reader.problem());
   for (int round = 0; round < 2; ++round) {
     ASSERT_TRUE(comes_true([&] {
@@ -128,17 +134,21 @@ TEST_F(PedalTest, OneThatMayNotBeOpenedNamesTheRule) {
   const auto found = list_hid_pedals();
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(code_of(found[0].problem), DeviceError::not_permitted);
-  EXPECT_NE(text_of(found[0].problem).find("{idVendor}==\"068e\""), std::string::npos) << text_of(found[0].problem);
+  EXPECT_NE(text_of(found[0].problem).find("{idVendor}==\"068e\""), std::string::npos)
+      << text_of(found[0].problem);
 }
 
 TEST_F(PedalTest, NoAxisOrNonsenseIsSaidAndNeverCuts) {
   using Descriptor = std::vector<std::uint8_t>;
   for (const auto& [descriptor, wrong] :
-       {std::pair{Descriptor{0x05, 0x07, 0x19, 0xe0, 0x29, 0xe7, 0x15, 0, 0x25, 1, 0x75, 1, 0x95, 8, 0x81, 2}, DeviceError::no_such_axis},
+       {std::pair{Descriptor{0x05, 0x07, 0x19, 0xe0, 0x29, 0xe7, 0x15, 0, 0x25, 1, 0x75, 1, 0x95, 8,
+                             0x81, 2},
+                  DeviceError::no_such_axis},
         {Descriptor{0xff, 0x80, 0x12}, DeviceError::bad_descriptor}}) {
     EmulatedPedal pedal(descriptor);
     HidPedal reader(0x068e, 0x00f2, {});
-    ASSERT_TRUE(comes_true([&, wrong = wrong] { return code_of(reader.problem()) == wrong; })) << text_of(reader.problem());
+    ASSERT_TRUE(comes_true([&, wrong = wrong] { return code_of(reader.problem()) == wrong; }))
+        << text_of(reader.problem());
     pedal.report({0xff, 0xff, 0xff});
     std::this_thread::sleep_for(30ms);
     EXPECT_FALSE(reader.read().fresh);

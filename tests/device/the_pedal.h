@@ -1,4 +1,5 @@
-// The pedal that suits the back end of hidapi with which this program is linked: the same tests run on both.
+// The pedal that suits the back end of hidapi with which this program is linked: the same tests run
+// on both.
 #pragma once
 
 #ifdef CAVUM_HIDAPI_LIBUSB

@@ -12,11 +12,13 @@ namespace cavum {
 namespace {
 
 TEST(UsbPedal, IsNeverAskedForAReport) {
-  if (!testing_device::EmulatedUsbPedal::possible()) GTEST_SKIP() << "runs under umockdev-wrapper only: ctest does so";
+  if (!testing_device::EmulatedUsbPedal::possible())
+    GTEST_SKIP() << "runs under umockdev-wrapper only: ctest does so";
   testing_device::EmulatedUsbPedal pedal;
   EXPECT_EQ(list_hid_pedals().size(), 1u);
   {
-    HidPedal reader(0x068e, 0x00f2, {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = false});
+    HidPedal reader(0x068e, 0x00f2,
+                    {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = false});
     for (int i = 0; i < 20000 && !reader.read().fresh; ++i) {
       pedal.report_axes(128, 0, 0);
       std::this_thread::sleep_for(std::chrono::milliseconds(1));

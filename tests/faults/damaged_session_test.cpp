@@ -1,5 +1,5 @@
-// Files cut short and bits flipped at random: whatever a disk or a hand does to a session, reading it ends
-// in an answer, and the answer is never "verified" on changed content.
+// Files cut short and bits flipped at random: whatever a disk or a hand does to a session, reading
+// it ends in an answer, and the answer is never "verified" on changed content.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -20,7 +20,8 @@ void put_clocks(ByteWriter& out, const Clocks& c) {
   for (const auto v : {c.monotonic_ns, c.boot_ns, c.utc_ns}) out.put(v);
 }
 
-/// All that a session says, decoded, as bytes; independent of the hashes inside the file. Throws on damage.
+/// All that a session says, decoded, as bytes; independent of the hashes inside the file. Throws on
+/// damage.
 Bytes content_of(const std::string& path) {
   const SessionReader s(path);
   s.require_readable();
@@ -75,7 +76,8 @@ struct Tally {
 };
 
 /// Puts `bytes` under `path` and checks that the verdict agrees with the content.
-void judge(const std::string& path, const Bytes& bytes, const Bytes& original, const std::string& what, Tally& tally) {
+void judge(const std::string& path, const Bytes& bytes, const Bytes& original,
+           const std::string& what, Tally& tally) {
   write_file(path, bytes);
   try {
     const VerifyReport report = verify_session(path);
@@ -108,7 +110,8 @@ TEST_F(DamagedSession, CutAt200RandomBytesIsNeverVerified) {
   Tally tally;
   for (int run = 0; run < 200; ++run) {
     const auto size = random.below(bytes_.size());
-    judge(damaged_, Bytes(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(size)), content_, "cut at " + std::to_string(size), tally);
+    judge(damaged_, Bytes(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(size)),
+          content_, "cut at " + std::to_string(size), tally);
   }
   std::printf("cut: %d with findings, %d unreadable\n", tally.findings, tally.unreadable);
   EXPECT_EQ(tally.verified, 0);
@@ -123,9 +126,11 @@ TEST_F(DamagedSession, With200RandomBitsFlippedOneByOneIsVerifiedOnlyWhenUnchang
     const auto at = random.below(bytes.size());
     const auto bit = random.below(8);
     bytes[at] ^= static_cast<std::uint8_t>(1u << bit);
-    judge(damaged_, bytes, content_, "byte " + std::to_string(at) + " bit " + std::to_string(bit), tally);
+    judge(damaged_, bytes, content_, "byte " + std::to_string(at) + " bit " + std::to_string(bit),
+          tally);
   }
-  std::printf("flipped: %d with findings, %d unreadable, %d in dead bytes\n", tally.findings, tally.unreadable, tally.verified);
+  std::printf("flipped: %d with findings, %d unreadable, %d in dead bytes\n", tally.findings,
+              tally.unreadable, tally.verified);
   EXPECT_GT(tally.findings, 100);
 }
 
@@ -152,10 +157,13 @@ TEST_F(DamagedSession, WithItsPagesShuffledIsNeverVerified) {
   const std::size_t pages = bytes_.size() / 1024;
   for (int run = 0; run < 30; ++run) {
     Bytes bytes = bytes_;
-    const auto from = 1 + random.below(pages - 1), to = 1 + random.below(pages - 1);  // a page refers to another as its own child
-    std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(from * 1024), 1024, bytes.begin() + static_cast<std::ptrdiff_t>(to * 1024));
+    const auto from = 1 + random.below(pages - 1),
+               to = 1 + random.below(pages - 1);  // a page refers to another as its own child
+    std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(from * 1024), 1024,
+                bytes.begin() + static_cast<std::ptrdiff_t>(to * 1024));
     if (bytes == bytes_) continue;
-    judge(damaged_, bytes, content_, "page " + std::to_string(from) + " over " + std::to_string(to), tally);
+    judge(damaged_, bytes, content_, "page " + std::to_string(from) + " over " + std::to_string(to),
+          tally);
   }
   EXPECT_EQ(tally.verified, 0);
 }

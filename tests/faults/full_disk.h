@@ -1,4 +1,5 @@
-// A disk that is full for this process: no file may grow beyond a limit while this lives (RLIMIT_FSIZE).
+// A disk that is full for this process: no file may grow beyond a limit while this lives
+// (RLIMIT_FSIZE).
 #pragma once
 
 #include <sys/resource.h>

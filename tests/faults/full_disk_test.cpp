@@ -1,5 +1,5 @@
-// A disk that is full: writes beyond a limit fail (RLIMIT_FSIZE). The recorder says so, keeps what it has,
-// and goes on without a loss once there is room.
+// A disk that is full: writes beyond a limit fail (RLIMIT_FSIZE). The recorder says so, keeps what
+// it has, and goes on without a loss once there is room.
 #include "tests/faults/full_disk.h"
 
 #include <gtest/gtest.h>
@@ -50,20 +50,23 @@ TEST_F(FullDiskTest, IsReportedAndLosesNothingOnceThereIsRoom) {
     for (std::int64_t tick = 1500; tick < 4600; ++tick) complaints += drill_tick(tick);
   }
   EXPECT_EQ(complaints, 3) << "once for each second that could not be written";
-  EXPECT_TRUE(complaint_ == DiskFault::full || complaint_ == DiskFault::input_output) << k_disk_faults[static_cast<std::size_t>(complaint_)];
+  EXPECT_TRUE(complaint_ == DiskFault::full || complaint_ == DiskFault::input_output)
+      << k_disk_faults[static_cast<std::size_t>(complaint_)];
   EXPECT_EQ(recorder_.ticks(), 4600);
   EXPECT_EQ(recorder_.ticks_on_disk(), 1000);
   EXPECT_EQ(SessionReader(path_).ticks(), 1000);
   recorder_.add_event(4600, TimeUp{});
   for (std::int64_t tick = 4600; tick < 5200; ++tick) ASSERT_FALSE(drill_tick(tick));
-  EXPECT_EQ(recorder_.ticks_on_disk(), 5000) << "the seconds that waited were written with the next one";
+  EXPECT_EQ(recorder_.ticks_on_disk(), 5000)
+      << "the seconds that waited were written with the next one";
   recorder_.close(tooth(), "{}");
 
   const VerifyReport report = verify_session(path_);
   EXPECT_TRUE(report.verified) << testing_basics::text_of(report.findings);
   const auto inputs = SessionReader(path_).inputs();
   ASSERT_EQ(inputs.size(), 5200u);
-  for (std::size_t i = 0; i < inputs.size(); ++i) ASSERT_EQ(inputs[i], test::motion_at(static_cast<std::int64_t>(i)));
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    ASSERT_EQ(inputs[i], test::motion_at(static_cast<std::int64_t>(i)));
   EXPECT_EQ(SessionReader(path_).events().size(), 1u);
 }
 
@@ -74,7 +77,8 @@ TEST_F(FullDiskTest, GoesOnAtAnotherPlaceWithAllThatWaited) {
     const FullDisk full(std::filesystem::file_size(path_ + "-wal") + 1500);
     for (std::int64_t tick = 6500; tick < 8300; ++tick) static_cast<void>(drill_tick(tick));
     ASSERT_EQ(recorder_.ticks_on_disk(), 6000);
-    EXPECT_THROW(recorder_.move_to(path_, {DiskFault::full}), Error) << "what is there is never overwritten";
+    EXPECT_THROW(recorder_.move_to(path_, {DiskFault::full}), Error)
+        << "what is there is never overwritten";
     EXPECT_THROW(recorder_.move_to(folder_.file("no/such/folder.cavum"), {DiskFault::full}), Error);
     EXPECT_THROW(recorder_.move_to(elsewhere, {DiskFault::full}), Error) << "it is as full there";
     EXPECT_EQ(recorder_.path(), path_);
@@ -91,7 +95,8 @@ TEST_F(FullDiskTest, GoesOnAtAnotherPlaceWithAllThatWaited) {
   const SessionReader moved(elsewhere);
   const auto inputs = moved.inputs();
   ASSERT_EQ(inputs.size(), 8600u);
-  for (std::size_t i = 0; i < inputs.size(); ++i) ASSERT_EQ(inputs[i], test::motion_at(static_cast<std::int64_t>(i)));
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    ASSERT_EQ(inputs[i], test::motion_at(static_cast<std::int64_t>(i)));
   ASSERT_EQ(moved.events().size(), 1u);
   EXPECT_EQ(moved.events()[0].tick, 8300);
   ASSERT_NE(moved.event_rows()[0].as<RecordingMoved>(), nullptr);
@@ -130,7 +135,8 @@ TEST(FullDisk, AnExamIsResumedOnItAndSavedElsewhere) {
   {
     const FullDisk full(1024);
     resumed.emplace(resume_session(path));
-    EXPECT_EQ(drill(resumed->recorder, 2000, 3100), 1) << "the candidate is told with the first second";
+    EXPECT_EQ(drill(resumed->recorder, 2000, 3100), 1)
+        << "the candidate is told with the first second";
   }
   resumed->recorder.move_to(elsewhere, {DiskFault::full});
   EXPECT_EQ(resumed->recorder.ticks_on_disk(), 3100);
@@ -175,11 +181,13 @@ TEST_F(FullDiskTest, WhileClosingCanBeRepeated) {
   };
   int failed = 0, sealed_in_the_log = 0;
   // ever a little more room: it fails at every stage of closing in turn
-  for (std::uintmax_t room = 0; !close(std::filesystem::file_size(path_) / 2 + room); room += 1024) {
+  for (std::uintmax_t room = 0; !close(std::filesystem::file_size(path_) / 2 + room);
+       room += 1024) {
     ++failed;
     sealed_in_the_log += verify_session(path_).verified;
   }
-  EXPECT_GT(sealed_in_the_log, 0) << "closed on disk, but not yet a single file: must read as closed";
+  EXPECT_GT(sealed_in_the_log, 0)
+      << "closed on disk, but not yet a single file: must read as closed";
   EXPECT_GT(failed, 3);
   EXPECT_FALSE(std::filesystem::exists(path_ + "-wal"));
   const VerifyReport report = verify_session(path_);

@@ -1,5 +1,5 @@
-// A recording process killed at random moments: the file opens, a second at most is missing, and the exam
-// goes on to a session that verifies.
+// A recording process killed at random moments: the file opens, a second at most is missing, and
+// the exam goes on to a session that verifies.
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -37,7 +37,8 @@ struct Truth {
 
 TEST(KilledSession, LosesAtMostASecondAndResumesAt20RandomMoments) {
   Random random(test::drawn_seed("LosesAtMostASecondAndResumesAt20RandomMoments"));
-  void* shared = ::mmap(nullptr, sizeof(Truth), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  void* shared =
+      ::mmap(nullptr, sizeof(Truth), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   ASSERT_NE(shared, MAP_FAILED);
   std::int64_t most_lost = 0, killed_with_motion = 0;
   for (int run = 0; run < 20; ++run) {
@@ -59,13 +60,15 @@ TEST(KilledSession, LosesAtMostASecondAndResumesAt20RandomMoments) {
       const SessionReader session(path);
       session.require_readable();
       EXPECT_FALSE(session.closed());
-      const std::int64_t lost = driven + 1 - session.ticks();  // one more tick may have been under way
+      const std::int64_t lost =
+          driven + 1 - session.ticks();  // one more tick may have been under way
       EXPECT_LE(lost, k_chunk_ticks + 1) << "of " << driven;
       EXPECT_GE(lost, 0);
       most_lost = std::max(most_lost, lost - 1);
       killed_with_motion += session.ticks() > 0;
       const auto inputs = session.inputs();
-      for (std::size_t i = 0; i < inputs.size(); ++i) ASSERT_EQ(inputs[i], test::motion_at(static_cast<std::int64_t>(i)));
+      for (std::size_t i = 0; i < inputs.size(); ++i)
+        ASSERT_EQ(inputs[i], test::motion_at(static_cast<std::int64_t>(i)));
     }
     EXPECT_TRUE(verify_session(path).intact);
     ResumedSession exam = resume_session(path);
@@ -78,8 +81,8 @@ TEST(KilledSession, LosesAtMostASecondAndResumesAt20RandomMoments) {
     EXPECT_NE(SessionReader(path).events().back().as<RecordingGap>(), nullptr);
   }
   ::munmap(shared, sizeof(Truth));
-  std::printf("at most %lld ticks lost; %lld of 20 killed after their first second\n", static_cast<long long>(most_lost),
-              static_cast<long long>(killed_with_motion));
+  std::printf("at most %lld ticks lost; %lld of 20 killed after their first second\n",
+              static_cast<long long>(most_lost), static_cast<long long>(killed_with_motion));
   EXPECT_GT(killed_with_motion, 5) << "the kills came too early to show anything";
 }
 

@@ -11,7 +11,8 @@ int main(int argc, char** argv) {
     for (const auto& target : cavum::fuzz::targets())
       if (argc == 3 && target.name == std::string(argv[1])) {
         int number = 0;
-        for (const auto& seed : target.seeds()) cavum::write_file(std::string(argv[2]) + "/made-" + std::to_string(number++), seed);
+        for (const auto& seed : target.seeds())
+          cavum::write_file(std::string(argv[2]) + "/made-" + std::to_string(number++), seed);
         return 0;
       }
     std::fprintf(stderr, "make_seeds NAME FOLDER\n");

@@ -19,9 +19,12 @@ namespace {
 class WorkFolder {
  public:
   WorkFolder() {
-    const auto base = std::filesystem::is_directory("/dev/shm") ? std::filesystem::path("/dev/shm") : std::filesystem::temp_directory_path();
+    const auto base = std::filesystem::is_directory("/dev/shm")
+                          ? std::filesystem::path("/dev/shm")
+                          : std::filesystem::temp_directory_path();
     std::string name = (base / "cavum-fuzz-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw Error(name, msg("cannot be made"), msg("make room there"));
+    if (::mkdtemp(name.data()) == nullptr)
+      throw Error(name, msg("cannot be made"), msg("make room there"));
     path_ = name;
     ::setenv("CAVUM_HOME", name.c_str(), 1);
   }
@@ -57,11 +60,13 @@ Bytes record_session() {
       const TickRecord record = make_tick_record(step(simulation.model, simulation.state, input));
       recorder.append(input, record, simulation.state.removed, state_hash(simulation.state));
       if (tick == 15) {
-        recorder.add_event(tick, RecordingGap{1, 2, 1.5, "x", "", {MotionSource{SourceKind::device, "none"}}});
+        recorder.add_event(
+            tick, RecordingGap{1, 2, 1.5, "x", "", {MotionSource{SourceKind::device, "none"}}});
         recorder.flush();
       }
     }
-    for (const Event& e : {Event(Perforated{}), Event(ServoLateness{}), Event(TimeUp{})}) recorder.add_event(29, e);
+    for (const Event& e : {Event(Perforated{}), Event(ServoLateness{}), Event(TimeUp{})})
+      recorder.add_event(29, e);
     recorder.close(save_tooth(drilled_tooth(simulation)), small_result());
   }
   return read_file(path);
@@ -74,7 +79,9 @@ const std::string& work_folder() {
   return k_folder.path();
 }
 
-std::string data_text(const std::string& name) { return read_text_file(std::string(CAVUM_SOURCE_DIR) + "/data/" + name); }
+std::string data_text(const std::string& name) {
+  return read_text_file(std::string(CAVUM_SOURCE_DIR) + "/data/" + name);
+}
 
 Tooth small_tooth() {
   Tooth tooth;
@@ -86,8 +93,10 @@ Tooth small_tooth() {
     for (int y = 0; y < 16; ++y)
       for (int x = 0; x < 16; ++x) {
         const Vec3 c = grid.centre_mm({x, y, z});
-        const double outside = std::max({std::fabs(c.x) - 0.4, std::fabs(c.y) - 0.4, c.z, -0.8 - c.z});
-        const double pulp = std::max({std::fabs(c.x) - 0.2, std::fabs(c.y) - 0.2, c.z + 0.4, -0.6 - c.z});
+        const double outside =
+            std::max({std::fabs(c.x) - 0.4, std::fabs(c.y) - 0.4, c.z, -0.8 - c.z});
+        const double pulp =
+            std::max({std::fabs(c.x) - 0.2, std::fabs(c.y) - 0.2, c.z + 0.4, -0.6 - c.z});
         const auto i = grid.index({x, y, z});
         if (outside < 0) grid.tissue[i] = pulp < 0 ? k_pulp : c.z > -0.2 ? k_enamel : k_dentin;
         grid.distance[i] = encode_distance(std::max(outside, -pulp) / grid.leaf_mm);
@@ -117,7 +126,8 @@ const Bytes& small_session() {
 }
 
 const SigningKey& station_key() {
-  static const SigningKey k_key = (static_cast<void>(work_folder()), load_station_key(station_key_path()));
+  static const SigningKey k_key =
+      (static_cast<void>(work_folder()), load_station_key(station_key_path()));
   return k_key;
 }
 
@@ -149,7 +159,9 @@ const records::LedgerContent& school_ledger() {
     const std::string folder = work_folder() + "/ledger";
     records::Ledger::create(folder, "School", school_key());
     records::Ledger ledger(folder, school_key());
-    ledger.append([](const records::LedgerContent&) { return records::TicketEntry{signed_ticket().ticket, signed_ticket().signature, {}}; });
+    ledger.append([](const records::LedgerContent&) {
+      return records::TicketEntry{signed_ticket().ticket, signed_ticket().signature, {}};
+    });
     return ledger.content();
   }();
   return k_content;

@@ -1,4 +1,5 @@
-// Small true things that the targets start from: a tooth of a few leaves, a session of some ticks drilled into it, a school with one ticket.
+// Small true things that the targets start from: a tooth of a few leaves, a session of some ticks
+// drilled into it, a school with one ticket.
 #pragma once
 
 #include <string>
@@ -16,7 +17,8 @@ namespace cavum::fuzz {
 [[nodiscard]] SessionSetup small_setup();
 /// Bytes of a closed session: two chunks, five events, a ticket among its notes. Made once.
 [[nodiscard]] const Bytes& small_session();
-/// Reads the ticks of each second by itself, then all that was removed. Throws Error when the session is damaged.
+/// Reads the ticks of each second by itself, then all that was removed. Throws Error when the
+/// session is damaged.
 void read_all_ticks(const SessionReader& session);
 /// The station that closed it.
 [[nodiscard]] const SigningKey& station_key();
@@ -27,12 +29,15 @@ void read_all_ticks(const SessionReader& session);
 [[nodiscard]] const records::SignedTicket& signed_ticket();
 /// A result as grading writes it, with two criteria.
 [[nodiscard]] std::string small_result();
-/// A folder in memory (/dev/shm, else the usual one for temporary files) that goes with the process.
+/// A folder in memory (/dev/shm, else the usual one for temporary files) that goes with the
+/// process.
 [[nodiscard]] const std::string& work_folder();
 /// A file that ships, below data/.
 [[nodiscard]] std::string data_text(const std::string& name);
 
 [[nodiscard]] inline Bytes bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
-[[nodiscard]] inline std::string text_of(std::span<const std::uint8_t> data) { return {data.begin(), data.end()}; }
+[[nodiscard]] inline std::string text_of(std::span<const std::uint8_t> data) {
+  return {data.begin(), data.end()};
+}
 
 }  // namespace cavum::fuzz

@@ -1,5 +1,5 @@
-// A surface from a file: STL from memory, as scenarios read it, and STL, PLY, OBJ and OFF from a file, as `cavum tooth import` and, open ones too,
-// `cavum scan` do.
+// A surface from a file: STL from memory, as scenarios read it, and STL, PLY, OBJ and OFF from a
+// file, as `cavum tooth import` and, open ones too, `cavum scan` do.
 #include <array>
 #include <fstream>
 
@@ -17,7 +17,8 @@ constexpr std::array<std::array<int, 3>, 4> k_corners{{{0, 0, 0}, {1, 0, 0}, {0,
 
 std::string corner(int i, const char* begin) {
   const auto& c = k_corners[static_cast<std::size_t>(i)];
-  return begin + std::to_string(c[0]) + " " + std::to_string(c[1]) + " " + std::to_string(c[2]) + "\n";
+  return begin + std::to_string(c[0]) + " " + std::to_string(c[1]) + " " + std::to_string(c[2]) +
+         "\n";
 }
 
 std::string stl_text() {
@@ -52,7 +53,9 @@ std::string ply_head(const std::string& format) {
 std::string ply_text() {
   std::string s = ply_head("ascii");
   for (int i = 0; i < 4; ++i) s += corner(i, "");
-  for (const auto& f : k_faces) s += "3 " + std::to_string(f[0]) + " " + std::to_string(f[1]) + " " + std::to_string(f[2]) + "\n";
+  for (const auto& f : k_faces)
+    s += "3 " + std::to_string(f[0]) + " " + std::to_string(f[1]) + " " + std::to_string(f[2]) +
+         "\n";
   return s;
 }
 
@@ -72,14 +75,18 @@ std::string obj_text() {
   std::string s = "# a\nmtllib a.mtl\no a\n";
   for (int i = 0; i < 4; ++i) s += corner(i, "v ");
   s += "vt 0 0\nvn 0 0 1\nusemtl a\n";
-  for (const auto& f : k_faces) s += "f " + std::to_string(f[0] + 1) + "/1/1 " + std::to_string(f[1] + 1) + "//1 " + std::to_string(f[2] + 1) + "\n";
+  for (const auto& f : k_faces)
+    s += "f " + std::to_string(f[0] + 1) + "/1/1 " + std::to_string(f[1] + 1) + "//1 " +
+         std::to_string(f[2] + 1) + "\n";
   return s;
 }
 
 std::string off_text() {
   std::string s = "OFF\n4 4 6\n";
   for (int i = 0; i < 4; ++i) s += corner(i, "");
-  for (const auto& f : k_faces) s += "3 " + std::to_string(f[0]) + " " + std::to_string(f[1]) + " " + std::to_string(f[2]) + "\n";
+  for (const auto& f : k_faces)
+    s += "3 " + std::to_string(f[0]) + " " + std::to_string(f[1]) + " " + std::to_string(f[2]) +
+         "\n";
   return s;
 }
 
@@ -104,7 +111,8 @@ void fuzz_mesh(Data data) {
     }
     const std::string path = work_folder() + "/surface" + k_kinds[kind];
     std::ofstream(path, std::ios::binary | std::ios::trunc)
-        .write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
+        .write(reinterpret_cast<const char*>(file.data()),
+               static_cast<std::streamsize>(file.size()));
     static_cast<void>(connected_parts(read_open_mesh(path)));
     static_cast<void>(connected_parts(read_closed_mesh(path).mesh));
   } catch (const Error&) {
@@ -112,8 +120,10 @@ void fuzz_mesh(Data data) {
 }
 
 std::vector<Bytes> mesh_seeds() {
-  return {with(0, bytes_of(stl_text())), with(0, stl_binary()), with(1, bytes_of(stl_text())), with(1, stl_binary()),
-          with(2, bytes_of(ply_text())), with(2, ply_binary()), with(3, bytes_of(obj_text())), with(4, bytes_of(off_text()))};
+  return {with(0, bytes_of(stl_text())), with(0, stl_binary()),
+          with(1, bytes_of(stl_text())), with(1, stl_binary()),
+          with(2, bytes_of(ply_text())), with(2, ply_binary()),
+          with(3, bytes_of(obj_text())), with(4, bytes_of(off_text()))};
 }
 
 }  // namespace cavum::fuzz

@@ -1,6 +1,8 @@
-// What comes over a connection to the exam office's server. The first byte says who asks (0 nobody, 1 to 4 a person of each role, 5 an enrolled
-// station) and what is put right before it is sent (8 = the body's length, 16 = the page's token); the rest are the bytes of the connection. Whoever
-// asks gets his cookie, or his signature, into the first request. No route may open to somebody that the table of routes keeps out.
+// What comes over a connection to the exam office's server. The first byte says who asks (0 nobody,
+// 1 to 4 a person of each role, 5 an enrolled station) and what is put right before it is sent (8 =
+// the body's length, 16 = the page's token); the rest are the bytes of the connection. Whoever asks
+// gets his cookie, or his signature, into the first request. No route may open to somebody that the
+// table of routes keeps out.
 #include <array>
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/error.hpp>
@@ -37,9 +39,11 @@ class BytesStream {
 
   template <class Buffers>
   std::size_t read_some(const Buffers& into, boost::system::error_code& wrong) {
-    const std::size_t n = boost::asio::buffer_copy(into, boost::asio::buffer(bytes_.data(), bytes_.size()));
+    const std::size_t n =
+        boost::asio::buffer_copy(into, boost::asio::buffer(bytes_.data(), bytes_.size()));
     bytes_.remove_prefix(n);
-    wrong = n == 0 ? boost::system::error_code(boost::asio::error::eof) : boost::system::error_code();
+    wrong =
+        n == 0 ? boost::system::error_code(boost::asio::error::eof) : boost::system::error_code();
     return n;
   }
   template <class Buffers>
@@ -80,7 +84,9 @@ class OpenOffice {
     {
       records::Ledger ledger(folder, school_key());
       const std::string code = records::invite_station(ledger, "Seat 3", 4'000'000'000'000'000'000);
-      static_cast<void>(records::enrol_station(ledger, records::station_request(station_key(), ledger.content().public_key, {}, code), 0, "request"));
+      static_cast<void>(records::enrol_station(
+          ledger, records::station_request(station_key(), ledger.content().public_key, {}, code), 0,
+          "request"));
       id_ = ledger.content().id;
     }
     office::OfficeOptions o;
@@ -96,7 +102,8 @@ class OpenOffice {
     office::make_certificate(o.certificate, {"127.0.0.1"});
     office::Accounts accounts(o.home + "/accounts.json");
     for (const office::Role role : office::all_roles())
-      static_cast<void>(accounts.set(std::string(office::name_of(role)), role, k_office_password, role == office::Role::officer));
+      static_cast<void>(accounts.set(std::string(office::name_of(role)), role, k_office_password,
+                                     role == office::Role::officer));
     office_ = std::make_unique<office::Office>(o);
     for (const office::Role role : office::all_roles()) sign_in(std::string(office::name_of(role)));
   }
@@ -111,12 +118,15 @@ class OpenOffice {
   /// What is said to these bytes.
   [[nodiscard]] std::string say(std::string_view bytes) const {
     BytesStream stream(bytes);
-    const office::Welcome welcome = [this](const office::Head& head) { return office_->welcome(head); };
+    const office::Welcome welcome = [this](const office::Head& head) {
+      return office_->welcome(head);
+    };
     const office::HttpLimits limits;
     const std::string address = "192.0.2.1";
     std::atomic<bool> stopping = false;
     const std::function<void(std::int64_t)> allow = [&](std::int64_t) {
-      if (stream.said().find("text/event-stream") != std::string::npos) stopping = true;  // a page that listens: it goes again
+      if (stream.said().find("text/event-stream") != std::string::npos)
+        stopping = true;  // a page that listens: it goes again
     };
     office::http_talk::Talk<BytesStream>(stream, {welcome, limits, address, allow, stopping}).run();
     return stream.said();
@@ -128,7 +138,8 @@ class OpenOffice {
  private:
   void sign_in(const std::string& name) {
     const std::string body = json{{"name", name}, {"password", k_office_password}}.dump();
-    office::Head head{"POST", "/api/sign-in", "", {{"content-type", "application/json"}}, "192.0.2.2"};
+    office::Head head{
+        "POST", "/api/sign-in", "", {{"content-type", "application/json"}}, "192.0.2.2"};
     const auto exchange = office_->welcome(head);
     exchange->take(body);
     const office::Reply reply = exchange->answer();
@@ -144,7 +155,8 @@ class OpenOffice {
   std::vector<std::string> cookies_, tokens_;
 };
 
-/// The office that stands. Another one after so many changes, or its ledger would grow with the runs.
+/// The office that stands. Another one after so many changes, or its ledger would grow with the
+/// runs.
 OpenOffice& open_office(bool changed) {
   static std::unique_ptr<OpenOffice> office = std::make_unique<OpenOffice>();
   static int changes = 0;
@@ -189,7 +201,10 @@ std::string sent(const OpenOffice& office, std::uint8_t how, std::string text) {
   }
   if (who == k_station_asks && is_plain_text(a.method + a.target))  // a station signs text
     fields += std::string(office::k_station_field) + ": " +
-              office::sign_request({office.id(), a.method, a.target, to_hex(sha256(a.body)), "", "", read_clocks().utc_ns}, station_key()) + "\r\n";
+              office::sign_request({office.id(), a.method, a.target, to_hex(sha256(a.body)), "", "",
+                                    read_clocks().utc_ns},
+                                   station_key()) +
+              "\r\n";
   return text.insert(a.line_end, fields);
 }
 
@@ -205,10 +220,13 @@ void fuzz_office(Data data) {
   // it was let in: the table of routes has to say so, too
   const Asked a = first_request(text);
   const office::Route* route = office::route_for(a.method, a.path);
-  if (route == nullptr) return;  // a method in small letters, a line of other blanks: Beast reads it in its own way
+  if (route == nullptr)
+    return;  // a method in small letters, a line of other blanks: Beast reads it in its own way
   const std::size_t who = how % 8;
   const bool person = who >= 1 && who <= 4;
-  if (route->asks == office::Asks::person && (!person || !route->lets(office::all_roles()[who - 1]))) std::abort();
+  if (route->asks == office::Asks::person &&
+      (!person || !route->lets(office::all_roles()[who - 1])))
+    std::abort();
   if (route->asks == office::Asks::station && who != k_station_asks) std::abort();
   if (route->asks == office::Asks::person && route->changes() && (how & 16U) == 0) std::abort();
   if (route->changes()) static_cast<void>(open_office(true));
@@ -249,7 +267,8 @@ std::vector<Bytes> office_seeds() {
     std::string path(route.path);
     if (path.ends_with('*')) path = path.substr(0, path.size() - 1) + hash;
     char who = route.asks == office::Asks::station ? 5 : 0;
-    for (std::size_t i = 0; route.asks == office::Asks::person && i < office::all_roles().size() && who == 0; ++i)
+    for (std::size_t i = 0;
+         route.asks == office::Asks::person && i < office::all_roles().size() && who == 0; ++i)
       if (route.lets(office::all_roles()[i])) who = static_cast<char>(i + 1);
     std::string text = std::string(route.method) + " " + path + " HTTP/1.1\r\nHost: office\r\n";
     if (route.changes()) text += "Content-Type: application/json\r\n";
@@ -257,10 +276,17 @@ std::vector<Bytes> office_seeds() {
     if (route.method == "POST") text += all.dump();
     if (route.method == "PUT") text += text_of(std::span(small_session()).first(2000));
     seeds.push_back(bytes_of(static_cast<char>(who + (route.changes() ? 24 : 0)) + text));
-    if (route.asks != office::Asks::nobody) seeds.push_back(bytes_of(static_cast<char>(route.changes() ? 8 : 0) + text));  // by nobody
+    if (route.asks != office::Asks::nobody)
+      seeds.push_back(bytes_of(static_cast<char>(route.changes() ? 8 : 0) + text));  // by nobody
   }
-  seeds.push_back(bytes_of('\0' + std::string("GET / HTTP/1.1\r\nTransfer-Encoding: chunked\r\nContent-Length: 4\r\n\r\n0\r\n\r\n")));
-  seeds.push_back(bytes_of('\0' + std::string("GET /api/../api/tickets?x=%2e%2e HTTP/1.1\r\nCookie: a\r\ncookie: b\r\n\r\nGET / HTTP/1.0\r\n\r\n")));
+  seeds.push_back(bytes_of(
+      '\0' +
+      std::string(
+          "GET / HTTP/1.1\r\nTransfer-Encoding: chunked\r\nContent-Length: 4\r\n\r\n0\r\n\r\n")));
+  seeds.push_back(bytes_of(
+      '\0' +
+      std::string(
+          "GET /api/../api/tickets?x=%2e%2e HTTP/1.1\r\nCookie: a\r\ncookie: b\r\n\r\nGET / HTTP/1.0\r\n\r\n")));
   return seeds;
 }
 

@@ -1,7 +1,9 @@
-// A sound session whose rows are edited: what a database shell, a broken disk or a station with a key of its own can put there. The data are a byte
-// of flags (1 = hashes, chain and signature are made right again; 2 and 4 leave out part of the questions, for speed) and then edits: what to do,
-// which column, which row, a length of two bytes, and that many bytes. All that verification, grading's reader and the ledger ask of a session is
-// asked afterwards; its physics is asked by replay_target and settings_target.
+// A sound session whose rows are edited: what a database shell, a broken disk or a station with a
+// key of its own can put there. The data are a byte of flags (1 = hashes, chain and signature are
+// made right again; 2 and 4 leave out part of the questions, for speed) and then edits: what to do,
+// which column, which row, a length of two bytes, and that many bytes. All that verification,
+// grading's reader and the ledger ask of a session is asked afterwards; its physics is asked by
+// replay_target and settings_target.
 #include <sqlite3.h>
 #include <zstd.h>
 
@@ -25,17 +27,29 @@ struct Column {
   Holds holds;
 };
 constexpr std::array<Column, 22> k_columns{
-    {{"chunk", "inputs", Holds::packed},       {"chunk", "records", Holds::packed},    {"chunk", "removed", Holds::packed},
-     {"chunk", "ticks", Holds::number},        {"chunk", "first_tick", Holds::number}, {"chunk", "state_hash", Holds::number},
-     {"chunk", "monotonic_ns", Holds::number}, {"chunk", "boot_ns", Holds::number},    {"chunk", "utc_ns", Holds::number},
-     {"event", "tick", Holds::number},         {"event", "chunk", Holds::number},      {"event", "kind", Holds::text},
-     {"event", "detail_json", Holds::text},    {"meta", "key", Holds::text},           {"meta", "value", Holds::text},
-     {"artifact", "name", Holds::text},        {"artifact", "bytes", Holds::bytes},    {"artifact", "size_bytes", Holds::number},
-     {"result", "json", Holds::text},          {"seal", "ticks", Holds::number},       {"seal", "chunks", Holds::number},
-     {"seal", "utc_ns", Holds::number}}};
-enum Action : std::uint8_t { k_set, k_overwrite, k_cut, k_delete, k_repack, k_add_event, k_actions };
+    {{"chunk", "inputs", Holds::packed},       {"chunk", "records", Holds::packed},
+     {"chunk", "removed", Holds::packed},      {"chunk", "ticks", Holds::number},
+     {"chunk", "first_tick", Holds::number},   {"chunk", "state_hash", Holds::number},
+     {"chunk", "monotonic_ns", Holds::number}, {"chunk", "boot_ns", Holds::number},
+     {"chunk", "utc_ns", Holds::number},       {"event", "tick", Holds::number},
+     {"event", "chunk", Holds::number},        {"event", "kind", Holds::text},
+     {"event", "detail_json", Holds::text},    {"meta", "key", Holds::text},
+     {"meta", "value", Holds::text},           {"artifact", "name", Holds::text},
+     {"artifact", "bytes", Holds::bytes},      {"artifact", "size_bytes", Holds::number},
+     {"result", "json", Holds::text},          {"seal", "ticks", Holds::number},
+     {"seal", "chunks", Holds::number},        {"seal", "utc_ns", Holds::number}}};
+enum Action : std::uint8_t {
+  k_set,
+  k_overwrite,
+  k_cut,
+  k_delete,
+  k_repack,
+  k_add_event,
+  k_actions
+};
 
-/// A database in memory that may be written; its mistakes are ours to ignore: an edit that SQLite refuses changes nothing.
+/// A database in memory that may be written; its mistakes are ours to ignore: an edit that SQLite
+/// refuses changes nothing.
 class Copy {
  public:
   explicit Copy(const Bytes& file) {
@@ -45,7 +59,8 @@ class Copy {
     auto* own = static_cast<unsigned char*>(sqlite3_malloc64(file.size()));
     std::copy(file.begin(), file.end(), own);
     const auto size = static_cast<sqlite3_int64>(file.size());
-    sqlite3_deserialize(db, "main", own, size, size, SQLITE_DESERIALIZE_FREEONCLOSE | SQLITE_DESERIALIZE_RESIZEABLE);
+    sqlite3_deserialize(db, "main", own, size, size,
+                        SQLITE_DESERIALIZE_FREEONCLOSE | SQLITE_DESERIALIZE_RESIZEABLE);
   }
   [[nodiscard]] Bytes file() const {
     sqlite3_int64 size = 0;
@@ -55,7 +70,8 @@ class Copy {
     return out;
   }
   /// Values are bound in order: numbers, then bytes or text.
-  void run(const std::string& sql, std::initializer_list<std::int64_t> numbers = {}, std::initializer_list<Data> blobs = {}, bool text = false) {
+  void run(const std::string& sql, std::initializer_list<std::int64_t> numbers = {},
+           std::initializer_list<Data> blobs = {}, bool text = false) {
     sqlite3_stmt* s = nullptr;
     if (sqlite3_prepare_v2(db_.get(), sql.c_str(), -1, &s, nullptr) != SQLITE_OK) return;
     int i = 0;
@@ -88,8 +104,10 @@ class Copy {
 
 std::int64_t number_of(Data bytes) {
   std::int64_t n = 0;
-  std::copy_n(bytes.begin(), std::min<std::size_t>(bytes.size(), sizeof n), reinterpret_cast<std::uint8_t*>(&n));
-  if (bytes.size() == 1) n = static_cast<std::int8_t>(bytes[0]);  // small numbers of either sign are likelier to fit
+  std::copy_n(bytes.begin(), std::min<std::size_t>(bytes.size(), sizeof n),
+              reinterpret_cast<std::uint8_t*>(&n));
+  if (bytes.size() == 1)
+    n = static_cast<std::int8_t>(bytes[0]);  // small numbers of either sign are likelier to fit
   return n;
 }
 
@@ -121,18 +139,28 @@ Bytes packed(const Bytes& raw) {
 
 void edit(Copy& copy, std::uint8_t action, const Column& column, unsigned row, Data payload) {
   const std::string table = column.table, name = column.name, key = table == "meta" ? "key" : "seq";
-  const std::string at = " WHERE " + key + " = (SELECT " + key + " FROM " + table + " ORDER BY 1 LIMIT 1 OFFSET " + std::to_string(row) + ")";
+  const std::string at = " WHERE " + key + " = (SELECT " + key + " FROM " + table +
+                         " ORDER BY 1 LIMIT 1 OFFSET " + std::to_string(row) + ")";
   const auto was = [&] { return copy.value("SELECT " + name + " FROM " + table + at); };
-  const auto put = [&](const Bytes& value) { copy.run("UPDATE " + table + " SET " + name + " = ?" + at, {}, {value}, column.holds == Holds::text); };
+  const auto put = [&](const Bytes& value) {
+    copy.run("UPDATE " + table + " SET " + name + " = ?" + at, {}, {value},
+             column.holds == Holds::text);
+  };
   if (action == k_delete) return copy.run("DELETE FROM " + table + at);
   if (action == k_add_event)
-    return copy.run("INSERT INTO event SELECT count(*), ?, ?, 'gap', ? FROM event", {static_cast<std::int64_t>(row), 0}, {payload}, true);
-  if (column.holds == Holds::number) return copy.run("UPDATE " + table + " SET " + name + " = ?" + at, {number_of(payload)});
-  if (action == k_set) return put(column.holds == Holds::packed ? packed({payload.begin(), payload.end()}) : Bytes(payload.begin(), payload.end()));
-  if (action == k_repack && column.holds == Holds::packed) return put(packed(overwritten(unpacked(was()), payload)));
+    return copy.run("INSERT INTO event SELECT count(*), ?, ?, 'gap', ? FROM event",
+                    {static_cast<std::int64_t>(row), 0}, {payload}, true);
+  if (column.holds == Holds::number)
+    return copy.run("UPDATE " + table + " SET " + name + " = ?" + at, {number_of(payload)});
+  if (action == k_set)
+    return put(column.holds == Holds::packed ? packed({payload.begin(), payload.end()})
+                                             : Bytes(payload.begin(), payload.end()));
+  if (action == k_repack && column.holds == Holds::packed)
+    return put(packed(overwritten(unpacked(was()), payload)));
   Bytes value = was();
   if (action == k_cut)
-    value.resize(std::min<std::size_t>(value.size(), static_cast<std::size_t>(number_of(payload)) & 0xffff));
+    value.resize(
+        std::min<std::size_t>(value.size(), static_cast<std::size_t>(number_of(payload)) & 0xffff));
   else
     value = overwritten(std::move(value), payload);
   put(value);
@@ -163,7 +191,9 @@ void seal_anew(Copy& copy) {
     copy.run(
         "UPDATE chunk SET inputs_sha256 = ?, records_sha256 = ?, removed_sha256 = ?, events_sha256 = ?, prev_sha256 = ?, sha256 = ? WHERE seq = " +
             std::to_string(c.seq),
-        {}, {c.inputs_sha256, c.records_sha256, c.removed_sha256, c.events_sha256, c.prev_sha256, c.sha256});
+        {},
+        {c.inputs_sha256, c.records_sha256, c.removed_sha256, c.events_sha256, c.prev_sha256,
+         c.sha256});
   }
   if (!session.seal()) return;
   Seal seal = *session.seal();
@@ -177,13 +207,16 @@ void seal_anew(Copy& copy) {
   seal.signature = station_key().sign(seal_message(seal));
   copy.run(
       "UPDATE seal SET chunks = ?, ticks = ?, events = ?, chain_sha256 = ?, final_tooth_sha256 = ?, result_sha256 = ?, public_key = ?, signature = ?",
-      {seal.chunks, seal.ticks, seal.events}, {seal.chain_sha256, seal.final_tooth_sha256, seal.result_sha256, seal.public_key, seal.signature});
+      {seal.chunks, seal.ticks, seal.events},
+      {seal.chain_sha256, seal.final_tooth_sha256, seal.result_sha256, seal.public_key,
+       seal.signature});
 }
 
 void question(const SessionReader& session, int what) {
   if (what != 1) static_cast<void>(check_chain(session));
   if (what != 1) static_cast<void>(check_clocks(session));
-  if (what != 1 && what != 3) static_cast<void>(records::check_claims(school_ledger(), session, {}));
+  if (what != 1 && what != 3)
+    static_cast<void>(records::check_claims(school_ledger(), session, {}));
   static_cast<void>(session.setup());
   if (what > 1) return;
   read_all_ticks(session);
@@ -198,8 +231,10 @@ void fuzz_recording(Data data) {
   const int what = data[0] >> 1 & 3;
   constexpr std::size_t k_head = 5;
   for (data = data.subspan(1); data.size() >= k_head;) {
-    const std::size_t length = std::min<std::size_t>(data[3] | static_cast<std::size_t>(data[4]) << 8, data.size() - k_head);
-    edit(copy, data[0] % k_actions, k_columns[data[1] % k_columns.size()], data[2] % 16U, data.subspan(k_head, length));
+    const std::size_t length = std::min<std::size_t>(
+        data[3] | static_cast<std::size_t>(data[4]) << 8, data.size() - k_head);
+    edit(copy, data[0] % k_actions, k_columns[data[1] % k_columns.size()], data[2] % 16U,
+         data.subspan(k_head, length));
     data = data.subspan(k_head + length);
   }
   try {
@@ -211,9 +246,14 @@ void fuzz_recording(Data data) {
 
 std::vector<Bytes> recording_seeds() {
   std::vector<Bytes> seeds{{0}, {1}};
-  const auto edit_of = [](std::uint8_t action, std::size_t column, std::uint8_t row, const Bytes& payload) {
-    Bytes b{
-        1, action, static_cast<std::uint8_t>(column), row, static_cast<std::uint8_t>(payload.size()), static_cast<std::uint8_t>(payload.size() >> 8)};
+  const auto edit_of = [](std::uint8_t action, std::size_t column, std::uint8_t row,
+                          const Bytes& payload) {
+    Bytes b{1,
+            action,
+            static_cast<std::uint8_t>(column),
+            row,
+            static_cast<std::uint8_t>(payload.size()),
+            static_cast<std::uint8_t>(payload.size() >> 8)};
     b.insert(b.end(), payload.begin(), payload.end());
     return b;
   };
@@ -223,15 +263,19 @@ std::vector<Bytes> recording_seeds() {
     seeds.push_back(edit_of(k_cut, column, 2, {9}));
     seeds.push_back(edit_of(k_delete, column, 0, {}));
     if (k_columns[column].holds == Holds::packed)
-      for (std::uint8_t row = 0; row < 3; ++row) seeds.push_back(edit_of(k_repack, column, row, {100, 0, 255, 127, 0, 128}));
+      for (std::uint8_t row = 0; row < 3; ++row)
+        seeds.push_back(edit_of(k_repack, column, row, {100, 0, 255, 127, 0, 128}));
   }
-  for (const char* text :
-       {R"({"boot_id":7,"source":{"device":1,"operator":2},"resumed_utc_ns":"x","gap_utc_s":1e300})", R"({"source":{"operator":"expert"}})"})
+  for (
+      const char* text :
+      {R"({"boot_id":7,"source":{"device":1,"operator":2},"resumed_utc_ns":"x","gap_utc_s":1e300})",
+       R"({"source":{"operator":"expert"}})"})
     seeds.push_back(edit_of(k_add_event, 0, 3, bytes_of(text)));
   seeds.push_back(edit_of(k_set, 18, 0, bytes_of(small_result())));
   seeds.push_back(edit_of(k_set, 14, 15, bytes_of(small_ticket())));
   for (const char* file : {"burs/round-1.0.toml", "materials/paper.toml"})
-    for (std::uint8_t row = 0; row < 6; ++row) seeds.push_back(edit_of(k_set, 16, row, bytes_of(data_text(file))));
+    for (std::uint8_t row = 0; row < 6; ++row)
+      seeds.push_back(edit_of(k_set, 16, row, bytes_of(data_text(file))));
   return seeds;
 }
 

@@ -1,5 +1,6 @@
-// The physics under any motion that a session can hold: up to four ticks of any bits, from the state after a sound beginning or from the first. The
-// servo must come to an end with numbers, and give the same again.
+// The physics under any motion that a session can hold: up to four ticks of any bits, from the
+// state after a sound beginning or from the first. The servo must come to an end with numbers, and
+// give the same again.
 #include <cmath>
 #include <cstdlib>
 
@@ -48,10 +49,13 @@ const Start& start() {
 }
 
 std::uint64_t run(Data data, ServoState state) {
-  for (std::size_t i = 0; i < k_max_ticks && data.size() >= k_tick_bytes; ++i, data = data.subspan(k_tick_bytes)) {
+  for (std::size_t i = 0; i < k_max_ticks && data.size() >= k_tick_bytes;
+       ++i, data = data.subspan(k_tick_bytes)) {
     const TickOutput output = step(start().fresh.model, state, input_of(data));
     static_cast<void>(make_tick_record(output));
-    if (!is_finite(output.rendered_force_n) || !is_finite(output.proxy_mm) || !std::isfinite(output.model_force_n)) std::abort();
+    if (!is_finite(output.rendered_force_n) || !is_finite(output.proxy_mm) ||
+        !std::isfinite(output.model_force_n))
+      std::abort();
   }
   return state_hash(state);
 }
@@ -66,7 +70,8 @@ void fuzz_replay(Data data) {
 
 std::vector<Bytes> replay_seeds() {
   std::vector<Bytes> seeds;
-  for (const std::size_t first : {std::size_t{0}, std::size_t{10}, std::size_t{20}, std::size_t{26}}) {
+  for (const std::size_t first :
+       {std::size_t{0}, std::size_t{10}, std::size_t{20}, std::size_t{26}}) {
     Bytes seed{static_cast<std::uint8_t>(first == 20)};
     for (std::size_t i = 0; i < k_max_ticks; ++i) {
       const Bytes tick = bytes_of(start().motion[first + i]);

@@ -9,7 +9,8 @@ namespace cavum::fuzz {
 
 void fuzz_results(Data data) {
   const std::string text = text_of(data), school = to_hex(school_key().public_key);
-  for (const records::LedgerContent* ledger : {static_cast<const records::LedgerContent*>(nullptr), &school_ledger()})
+  for (const records::LedgerContent* ledger :
+       {static_cast<const records::LedgerContent*>(nullptr), &school_ledger()})
     static_cast<void>(records::check_results(text, school, ledger));
   auto facts = parse_json_or_null(text);
   if (!facts.is_object()) return;

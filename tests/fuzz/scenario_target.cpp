@@ -1,4 +1,5 @@
-// A scenario's text, checked as `cavum scenario check` does before it asks for the tooth, and as a rubric.
+// A scenario's text, checked as `cavum scenario check` does before it asks for the tooth, and as a
+// rubric.
 #include <filesystem>
 
 #include "engine/base/file.h"
@@ -22,9 +23,11 @@ void fuzz_scenario(Data data) {
 
 std::vector<Bytes> scenario_seeds() {
   std::vector<Bytes> seeds;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(CAVUM_SOURCE_DIR) + "/data/scenarios"))
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(CAVUM_SOURCE_DIR) + "/data/scenarios"))
     if (entry.path().extension() == ".toml") seeds.push_back(read_file(entry.path().string()));
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(CAVUM_SOURCE_DIR) + "/tests/scenarios/broken"))
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(CAVUM_SOURCE_DIR) +
+                                                               "/tests/scenarios/broken"))
     if (entry.path().extension() == ".toml") seeds.push_back(read_file(entry.path().string()));
   return seeds;
 }

@@ -1,5 +1,6 @@
-// Every reader of files that come from elsewhere, under its seeds, under all that ever was a finding (seeds/NAME), and under some thousand random
-// changes of both: the short form of `./dev fuzz`, in every build. That nothing ends the program is the claim.
+// Every reader of files that come from elsewhere, under its seeds, under all that ever was a
+// finding (seeds/NAME), and under some thousand random changes of both: the short form of `./dev
+// fuzz`, in every build. That nothing ends the program is the claim.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +22,9 @@ std::vector<Bytes> findings_of(const std::string& name) {
   std::vector<Bytes> out;
   std::vector<std::filesystem::path> paths;
   std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(CAVUM_SOURCE_DIR "/tests/fuzz/seeds/" + name, none)) paths.push_back(entry.path());
+  for (const auto& entry :
+       std::filesystem::directory_iterator(CAVUM_SOURCE_DIR "/tests/fuzz/seeds/" + name, none))
+    paths.push_back(entry.path());
   std::sort(paths.begin(), paths.end());
   for (const auto& p : paths) out.push_back(read_file(p.string()));
   return out;
@@ -42,7 +45,8 @@ TEST_P(Readers, AnswerAnyBytes) {
   std::printf("%s: %zu seeds, %d changes\n", target.name, seeds.size(), runs);
 }
 
-INSTANTIATE_TEST_SUITE_P(Fuzz, Readers, testing::ValuesIn(targets()), [](const auto& tested) { return std::string(tested.param.name); });
+INSTANTIATE_TEST_SUITE_P(Fuzz, Readers, testing::ValuesIn(targets()),
+                         [](const auto& tested) { return std::string(tested.param.name); });
 
 }  // namespace
 }  // namespace cavum::fuzz

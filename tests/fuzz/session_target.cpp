@@ -1,5 +1,5 @@
-// A session's file as bytes: what SQLite makes of a damaged file, and what the reader makes of that. Cheap questions only, the motion is asked of
-// recording_target.
+// A session's file as bytes: what SQLite makes of a damaged file, and what the reader makes of
+// that. Cheap questions only, the motion is asked of recording_target.
 #include "engine/session/chain_check.h"
 #include "engine/session/clock_check.h"
 #include "engine/session/session_reader.h"

@@ -1,4 +1,5 @@
-// The small texts that a session holds beside its motion: force model, servo settings, bur and landmarks, by the first byte.
+// The small texts that a session holds beside its motion: force model, servo settings, bur and
+// landmarks, by the first byte.
 #include "engine/physics/servo/servo.h"
 #include "engine/tooth/anatomy/landmarks_file.h"
 #include "tests/fuzz/material.h"

@@ -1,5 +1,6 @@
-// A tooth file. Its checksum would turn away nearly all that a fuzzer makes, so the first byte says how the rest is wrapped: 0 as it is, 1 as all
-// but magic and checksum, which are put right, 2 as all but the checksum.
+// A tooth file. Its checksum would turn away nearly all that a fuzzer makes, so the first byte says
+// how the rest is wrapped: 0 as it is, 1 as all but magic and checksum, which are put right, 2 as
+// all but the checksum.
 #include <cstdlib>
 
 #include "engine/tooth/tooth.h"
@@ -71,7 +72,8 @@ std::vector<Bytes> tooth_seeds() {
   Tooth marked = tooth;
   marked.placed_landmarks = {{"central_pit", {0.1, 0.2, 0.3}}, {"cusp_1", {-0.3, 0, 0.4}}};
   const Bytes more = save_tooth(marked);
-  return {with(0, file), with(2, Data(file).first(file.size() - k_sum)), with(1, Data(more).subspan(k_magic, more.size() - k_magic - k_sum))};
+  return {with(0, file), with(2, Data(file).first(file.size() - k_sum)),
+          with(1, Data(more).subspan(k_magic, more.size() - k_magic - k_sum))};
 }
 
 }  // namespace cavum::fuzz

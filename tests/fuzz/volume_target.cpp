@@ -1,6 +1,8 @@
-// A volume as `cavum tooth import` reads it: the walks that are ours in this process, and, where there is ITK, the whole reading in a child with
-// limits, as the program does: it may break, and must give a volume, an Error or an end, in time. The first byte chooses the files: MetaImage in one
-// file, its header beside sound voxels, NRRD, NIfTI, packed NIfTI, TIFF, a slice of a DICOM series, one slice alone, or what the child sends.
+// A volume as `cavum tooth import` reads it: the walks that are ours in this process, and, where
+// there is ITK, the whole reading in a child with limits, as the program does: it may break, and
+// must give a volume, an Error or an end, in time. The first byte chooses the files: MetaImage in
+// one file, its header beside sound voxels, NRRD, NIfTI, packed NIfTI, TIFF, a slice of a DICOM
+// series, one slice alone, or what the child sends.
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -31,8 +33,10 @@ namespace {
 namespace fs = std::filesystem;
 using testing_import::Voxels;
 
-constexpr std::array<const char*, 6> k_names{"v.mha", "v.mhd", "v.nrrd", "v.nii", "v.nii.gz", "v.tif"};
-constexpr std::size_t k_slice = k_names.size(), k_alone = k_slice + 1, k_sent = k_alone + 1, k_kinds = k_sent + 1;
+constexpr std::array<const char*, 6> k_names{"v.mha", "v.mhd",    "v.nrrd",
+                                             "v.nii", "v.nii.gz", "v.tif"};
+constexpr std::size_t k_slice = k_names.size(), k_alone = k_slice + 1, k_sent = k_alone + 1,
+                      k_kinds = k_sent + 1;
 constexpr int k_slices = 5;
 
 Voxels small_volume() {
@@ -43,7 +47,8 @@ Voxels small_volume() {
 
 void write(const fs::path& path, Data bytes) {
   std::ofstream(path, std::ios::binary | std::ios::trunc)
-      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+      .write(reinterpret_cast<const char*>(bytes.data()),
+             static_cast<std::streamsize>(bytes.size()));
 }
 
 const std::string& folder() {
@@ -52,7 +57,8 @@ const std::string& folder() {
     fs::create_directories(made + "/series");
     testing_import::write_bytes(fs::path(made) / "v.raw", small_volume().gray);
     for (int z = 0; z < k_slices; ++z)
-      testing_import::write_dicom_slice(fs::path(made) / "series" / ("s" + std::to_string(z) + ".dcm"), small_volume(), z);
+      testing_import::write_dicom_slice(
+          fs::path(made) / "series" / ("s" + std::to_string(z) + ".dcm"), small_volume(), z);
     return made;
   }();
   return k_folder;
@@ -185,11 +191,13 @@ std::vector<Bytes> volume_seeds() {
     sound.size = {v.nx, v.ny, v.nz};
     sound.spacing_mm = {0.25, 0.25, 0.25};
     const std::vector<float> gray(v.gray.begin(), v.gray.end());
-    static_cast<void>(refused ? send_volume_error(ends[1], Error("v.mha", msg("is cut off"), msg("copy it again")))
+    static_cast<void>(refused ? send_volume_error(ends[1], Error("v.mha", msg("is cut off"),
+                                                                 msg("copy it again")))
                               : send_volume(ends[1], sound, gray));
     ::close(ends[1]);
     Bytes sent(4096);
-    sent.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::read(ends[0], sent.data(), sent.size()))));
+    sent.resize(
+        static_cast<std::size_t>(std::max<ssize_t>(0, ::read(ends[0], sent.data(), sent.size()))));
     ::close(ends[0]);
     add(k_sent, sent);
   }
@@ -201,8 +209,16 @@ std::vector<Bytes> volume_seeds() {
   for (int i = 0; i < 32; ++i) tiff.put(static_cast<std::uint8_t>(i));
   for (const std::uint32_t page : {0U, 1U}) {
     tiff.put(static_cast<std::uint16_t>(k_fields));
-    for (const auto& [tag, value] : std::initializer_list<std::pair<std::uint16_t, std::uint32_t>>{
-             {256, 4}, {257, 4}, {258, 8}, {259, 1}, {262, 1}, {273, 8 + 16 * page}, {277, 1}, {278, 4}, {279, 16}}) {
+    for (const auto& [tag, value] :
+         std::initializer_list<std::pair<std::uint16_t, std::uint32_t>>{{256, 4},
+                                                                        {257, 4},
+                                                                        {258, 8},
+                                                                        {259, 1},
+                                                                        {262, 1},
+                                                                        {273, 8 + 16 * page},
+                                                                        {277, 1},
+                                                                        {278, 4},
+                                                                        {279, 16}}) {
       tiff.put(tag);
       tiff.put(std::uint16_t{4});
       tiff.put(std::uint32_t{1});

@@ -7,20 +7,31 @@ namespace {
 
 Tooth block() {
   const auto in_box = [](Vec3 p, Vec3 low, Vec3 high) {
-    return p.x > low.x && p.y > low.y && p.z > low.z && p.x < high.x && p.y < high.y && p.z < high.z;
+    return p.x > low.x && p.y > low.y && p.z > low.z && p.x < high.x && p.y < high.y &&
+           p.z < high.z;
   };
   const auto pulp = [in_box](Vec3 p) {
     p.x = std::fabs(p.x);
-    return in_box(p, {-0.1, -1, -4.5}, {1.5, 1, -3}) || in_box(p, {0.9, -0.3, -3}, {1.4, 0.3, -2.5}) ||
+    return in_box(p, {-0.1, -1, -4.5}, {1.5, 1, -3}) ||
+           in_box(p, {0.9, -0.3, -3}, {1.4, 0.3, -2.5}) ||
            in_box(p, {0.8, -0.3, -5.3}, {1.2, 0.3, -4.5});
   };
   return testing::make_tooth(
       {-3, -2.5, -5.7}, {3, 2.5, 0.3}, 0.1,
       [pulp](Vec3 p) -> std::uint8_t {
-        return p.z > 0 ? k_air : p.z < -5.3 ? k_periodontium : pulp(p) ? k_pulp : p.z > -1.5 ? k_enamel : k_dentin;
+        return p.z > 0      ? k_air
+               : p.z < -5.3 ? k_periodontium
+               : pulp(p)    ? k_pulp
+               : p.z > -1.5 ? k_enamel
+                            : k_dentin;
       },
       [pulp](Vec3 p) {
-        return p.z > 0 ? p.z : p.z < -5.3 ? -5.3 - p.z : pulp(p) ? 0.1 : p.z > -0.15 ? p.z : p.z < -5.15 ? -5.3 - p.z : -0.1;
+        return p.z > 0       ? p.z
+               : p.z < -5.3  ? -5.3 - p.z
+               : pulp(p)     ? 0.1
+               : p.z > -0.15 ? p.z
+               : p.z < -5.15 ? -5.3 - p.z
+                             : -0.1;
       });
 }
 
@@ -80,8 +91,10 @@ faults = ["periodontium"]
 }  // namespace
 
 const Task& block_task(bool access) {
-  static const Task cavity = task_on(std::string("id = \"block_cavity\"\n") + k_text + k_cavity, "block_cavity", block()),
-                    way_in = task_on(std::string("id = \"block_access\"\n") + k_text + k_access, "block_access", block());
+  static const Task cavity = task_on(std::string("id = \"block_cavity\"\n") + k_text + k_cavity,
+                                     "block_cavity", block()),
+                    way_in = task_on(std::string("id = \"block_access\"\n") + k_text + k_access,
+                                     "block_access", block());
   return access ? way_in : cavity;
 }
 

@@ -21,7 +21,8 @@ std::vector<Order> orders(const Task& t) {
     std::vector<double> keys;
     for (const Vec3 p : t.leaves) keys.push_back(o.key(p));
     std::sort(keys.begin(), keys.end());
-    for (std::size_t k = 1; k <= 20; ++k) o.ends.push_back(k == 20 ? 1e6 : keys[keys.size() * k / 20]);
+    for (std::size_t k = 1; k <= 20; ++k)
+      o.ends.push_back(k == 20 ? 1e6 : keys[keys.size() * k / 20]);
   }
   return list;
 }

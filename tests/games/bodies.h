@@ -36,19 +36,24 @@ inline Body stroke(Vec3 a, Vec3 b, double radius) {
 }
 /// Turned by `deg` about the line through `at` along the unit vector `axis`.
 inline Body turned(Body a, Vec3 at, Vec3 axis, double deg) {
-  const double c = std::cos(deg * std::numbers::pi / 180), s = -std::sin(deg * std::numbers::pi / 180);
+  const double c = std::cos(deg * std::numbers::pi / 180),
+               s = -std::sin(deg * std::numbers::pi / 180);
   return [=, a = std::move(a)](Vec3 p) {
     const Vec3 q = p - at;
     return a(at + q * c + cross(axis, q) * s + axis * (dot(axis, q) * (1 - c)));
   };
 }
-/// Without these leaves, which stay whole. `kept(leaf)` says which; a step of half a coarse leaf stands for the distance.
+/// Without these leaves, which stay whole. `kept(leaf)` says which; a step of half a coarse leaf
+/// stands for the distance.
 template <class Kept>
 Body sparing(Body a, const Octree& tree, Kept kept) {
-  return [a = std::move(a), &tree, kept = std::move(kept)](Vec3 p) { return std::max(a(p), kept(tree.leaf_at(p)) ? 0.05 : -0.05); };
+  return [a = std::move(a), &tree, kept = std::move(kept)](Vec3 p) {
+    return std::max(a(p), kept(tree.leaf_at(p)) ? 0.05 : -0.05);
+  };
 }
 
-/// Directions of a task: out along the approach, and across it towards mesial (u) and buccal (v), where the approach is upright.
+/// Directions of a task: out along the approach, and across it towards mesial (u) and buccal (v),
+/// where the approach is upright.
 struct Frame {
   Vec3 out, u, v;
   explicit Frame(const Task& t) : out(t.zones.approach()) {
@@ -68,7 +73,8 @@ struct Order {
 /// What of the target goes before its `part`-th twentieth (1 to 20).
 [[nodiscard]] Body part_of_target(const Task& task, const Order& order, int part);
 
-/// Nearest leaf of a tissue under perforation.faults to the target, and the target's leaf nearest to it. Throws Error without one.
+/// Nearest leaf of a tissue under perforation.faults to the target, and the target's leaf nearest
+/// to it. Throws Error without one.
 struct WayToFault {
   Vec3 from_mm, to_mm;
 };

@@ -1,5 +1,6 @@
-// Whole exams of the slot by motion files, with all of the physics: none that holds, pecks, circles, pulses the pedal, leans or cuts with the shank
-// is marked better than the expert, and none of them passes.
+// Whole exams of the slot by motion files, with all of the physics: none that holds, pecks,
+// circles, pulses the pedal, leans or cuts with the shank is marked better than the expert, and
+// none of them passes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +12,8 @@
 namespace cavum::games {
 namespace {
 
-/// A motion, made of straight ways at a given speed. mm, s; the slot is 6.0 x 1.5 x 1.5 mm, its surface at z = 0.
+/// A motion, made of straight ways at a given speed. mm, s; the slot is 6.0 x 1.5 x 1.5 mm, its
+/// surface at z = 0.
 class Way {
  public:
   double x = 0, y = 0, z = 1, tilt_deg = 0, pulse_s = 0;
@@ -45,7 +47,8 @@ class Way {
     const double half = tilt_deg * std::numbers::pi / 360;
     if (pulse_s > 0 && std::fmod(t_, 2 * pulse_s) > pulse_s) pedal = 0;
     char line[160];
-    std::snprintf(line, sizeof line, "%.3f,%.4f,%.4f,%.4f,%.6f,0,%.6f,0,%d\n", t_, x, y, z, std::cos(half), std::sin(half), pedal);
+    std::snprintf(line, sizeof line, "%.3f,%.4f,%.4f,%.4f,%.6f,0,%.6f,0,%d\n", t_, x, y, z,
+                  std::cos(half), std::sin(half), pedal);
     rows_ += line;
     t_ += k_step_s;
   }
@@ -58,7 +61,13 @@ void to_and_fro(Way& w, double deepest, double layer) {
   w.to(0, 0, 0.1, 2);
   for (double z = -layer; z > deepest - 1e-6; z -= layer) {
     w.to(0, 0, z, 0.3);
-    for (const auto& [x, y] : {std::pair{-2.25, 0.25}, {2.25, 0.25}, {2.45, 0.0}, {2.25, -0.25}, {-2.25, -0.25}, {-2.45, 0.0}, {0.0, 0.0}})
+    for (const auto& [x, y] : {std::pair{-2.25, 0.25},
+                               {2.25, 0.25},
+                               {2.45, 0.0},
+                               {2.25, -0.25},
+                               {-2.25, -0.25},
+                               {-2.45, 0.0},
+                               {0.0, 0.0}})
       w.to(x, y, z, 1.2);
   }
 }
@@ -70,9 +79,11 @@ class Exams : public testing_ui::Program {
     return sat(name, "--motion " + path(name + ".csv"));
   }
   nlohmann::json sat(const std::string& name, const std::string& by) {
-    const auto j = run_json("exam " + testing_ui::k_data + "/scenarios/slot.toml --candidate " + name + " " + by + " --out " + path(name + ".cavum"));
-    std::printf("%-10s %s %.3f, %.1f %% of the target, %.1f s\n", name.c_str(), j["verdict"].get<std::string>().c_str(),
-                j["score"]["points"].get<double>(), j["volumes"]["target_removed_percent"].get<double>(), j["time_s"].get<double>());
+    const auto j = run_json("exam " + testing_ui::k_data + "/scenarios/slot.toml --candidate " +
+                            name + " " + by + " --out " + path(name + ".cavum"));
+    std::printf("%-10s %s %.3f, %.1f %% of the target, %.1f s\n", name.c_str(),
+                j["verdict"].get<std::string>().c_str(), j["score"]["points"].get<double>(),
+                j["volumes"]["target_removed_percent"].get<double>(), j["time_s"].get<double>());
     return j;
   }
 };
@@ -113,7 +124,8 @@ TEST_F(Exams, GamesByHandAreMarkedBelowHonestWorkAndDoNotPass) {
   lean.done();
   for (const auto& [name, way] : games) {
     const auto j = marked(name, way);
-    EXPECT_LE(j["score"]["points"].get<double>(), best["score"]["points"].get<double>()) << name << j["criteria"].dump();
+    EXPECT_LE(j["score"]["points"].get<double>(), best["score"]["points"].get<double>())
+        << name << j["criteria"].dump();
     EXPECT_NE(j["verdict"], "pass") << name << j["criteria"].dump();
   }
 }

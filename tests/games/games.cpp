@@ -39,8 +39,9 @@ struct Ground {
   [[nodiscard]] Body notch(Vec3 side, double depth) const {
     constexpr double k_radius = 0.4;
     const double s = reach(side) + depth - k_radius;
-    return both(stroke(at(0, 0, top + 3) + side * s, at(0, 0, floor + k_radius) + side * s, k_radius),
-                beyond(f.out, floor));  // as deep as the target
+    return both(
+        stroke(at(0, 0, top + 3) + side * s, at(0, 0, floor + k_radius) + side * s, k_radius),
+        beyond(f.out, floor));  // as deep as the target
   }
 };
 
@@ -53,11 +54,15 @@ Game cutting(std::string name, Body body, Fair fair = Fair::any) {
           fair};
 }
 
-void wrong_place(std::vector<Game>& list, const Ground& g) {
-  for (const auto& [by, side, name] : {std::tuple{0.3, g.f.u, "mesial"}, std::tuple{0.6, g.f.v * -1.0, "lingual"}, std::tuple{1.0, g.f.u, "mesial"},
-                                       std::tuple{2.0, g.f.v * -1.0, "lingual"}})
-    list.push_back(cutting(fmt::format("beside_{:.1f}_{}", by, name), moved(g.target, side * by), by > 1.5 ? Fair::not_pass : Fair::any));
-  for (const double deg : {10.0, 20.0, 30.0}) list.push_back(cutting(fmt::format("tilted_{:.0f}", deg), turned(g.target, g.t.middle_mm, g.f.v, deg)));
+void wrong_position(std::vector<Game>& list, const Ground& g) {
+  for (const auto& [by, side, name] :
+       {std::tuple{0.3, g.f.u, "mesial"}, std::tuple{0.6, g.f.v * -1.0, "lingual"},
+        std::tuple{1.0, g.f.u, "mesial"}, std::tuple{2.0, g.f.v * -1.0, "lingual"}})
+    list.push_back(cutting(fmt::format("beside_{:.1f}_{}", by, name), moved(g.target, side * by),
+                           by > 1.5 ? Fair::not_pass : Fair::any));
+  for (const double deg : {10.0, 20.0, 30.0})
+    list.push_back(
+        cutting(fmt::format("tilted_{:.0f}", deg), turned(g.target, g.t.middle_mm, g.f.v, deg)));
   list.push_back(cutting("deeper_0.4", either(g.target, moved(g.target, g.f.out * -0.4))));
   list.push_back(cutting("wider_0.4", both(grown_target(g.t, 0.4), beyond(g.f.out, g.floor))));
   list.push_back(cutting("shallower_0.6", both(g.target, moved(g.target, g.f.out * 0.6))));
@@ -65,17 +70,23 @@ void wrong_place(std::vector<Game>& list, const Ground& g) {
   list.push_back(cutting("notch_0.5_distal", either(g.target, g.notch(g.f.u * -1.0, 0.5))));
   list.push_back(cutting("notch_1.2_buccal", either(g.target, g.notch(g.f.v, 1.2))));
   // the shank rubs the rim of one wall away: 0.8 mm beyond the target in its upper half
-  list.push_back(cutting("shank", either(g.target, both(both(grown_target(g.t, 0.8), beyond(g.f.out, (g.top + g.floor) / 2)),
-                                                        beyond(g.f.u, dot(g.t.middle_mm, g.f.u))))));
+  list.push_back(cutting(
+      "shank",
+      either(g.target, both(both(grown_target(g.t, 0.8), beyond(g.f.out, (g.top + g.floor) / 2)),
+                            beyond(g.f.u, dot(g.t.middle_mm, g.f.u))))));
 }
 
 void too_much(std::vector<Game>& list, const Ground& g) {
   list.push_back(cutting("everything_around", grown_target(g.t, 1.5), Fair::not_pass));
   const WayToFault way = way_to_fault(g.t);
   const Vec3 along = normalized(way.to_mm - way.from_mm);
-  for (const auto& [name, over, radius] : {std::tuple{"stops_short_of_fault", -0.25, 0.3}, std::tuple{"grazes_fault", 0.01, 0.3},
-                                           std::tuple{"opens_fault_slightly", 0.15, 0.3}, std::tuple{"opens_fault_widely", 0.6, 0.6}})
-    list.push_back(cutting(name, either(g.target, stroke(way.from_mm, way.to_mm + along * (over - radius - g.t.zones.leaf_mm() / 2), radius))));
+  for (const auto& [name, over, radius] :
+       {std::tuple{"stops_short_of_fault", -0.25, 0.3}, std::tuple{"grazes_fault", 0.01, 0.3},
+        std::tuple{"opens_fault_slightly", 0.15, 0.3}, std::tuple{"opens_fault_widely", 0.6, 0.6}})
+    list.push_back(cutting(
+        name, either(g.target, stroke(way.from_mm,
+                                      way.to_mm + along * (over - radius - g.t.zones.leaf_mm() / 2),
+                                      radius))));
 }
 
 void too_little(std::vector<Game>& list, const Ground& g) {
@@ -89,23 +100,29 @@ void too_little(std::vector<Game>& list, const Ground& g) {
   Body pecks = [](Vec3) { return 1e3; };
   for (int i = -6; i <= 6; ++i)
     for (int j = -6; j <= 6; ++j)
-      if (g.target(g.at(i, j, (g.top + g.floor) / 2)) < 0) pecks = either(pecks, g.hole(i, j, 0.45, g.floor));
+      if (g.target(g.at(i, j, (g.top + g.floor) / 2)) < 0)
+        pecks = either(pecks, g.hole(i, j, 0.45, g.floor));
   list.push_back(cutting("peck", both(pecks, g.target), Fair::not_pass));
-  list.push_back(cutting("circle", both(g.target, [t = g.target](Vec3 p) { return -0.35 - t(p); })));
+  list.push_back(
+      cutting("circle", both(g.target, [t = g.target](Vec3 p) { return -0.35 - t(p); })));
   const Octree& tree = g.t.tooth.octree;
   if (!g.t.scenario.perforation.aims.empty()) {
     const auto roof = [&tree](IVec3 l) {
       for (int z = -2; z <= 2; ++z)
         for (int y = -2; y <= 2; ++y)
           for (int x = -2; x <= 2; ++x)
-            if (x * x + y * y + z * z <= 5 && tree.tissue(l + IVec3{x, y, z}) == k_pulp) return true;
+            if (x * x + y * y + z * z <= 5 && tree.tissue(l + IVec3{x, y, z}) == k_pulp)
+              return true;
       return false;
     };
     list.push_back(cutting("thin_roof_left", sparing(g.target, tree, roof), Fair::not_pass));
   }
   if (g.t.name == "hidden_lesion") {
     const std::uint8_t lesion = g.t.tooth.tissue_id("lesion");
-    list.push_back(cutting("lesion_left", sparing(g.target, tree, [&tree, lesion](IVec3 l) { return tree.tissue(l) == lesion; }), Fair::fail));
+    list.push_back(cutting(
+        "lesion_left",
+        sparing(g.target, tree, [&tree, lesion](IVec3 l) { return tree.tissue(l) == lesion; }),
+        Fair::fail));
   }
 }
 
@@ -155,7 +172,7 @@ std::vector<Game> games_of(const Task& task) {
   const Ground g(task);
   std::vector<Game> list;
   too_little(list, g);
-  wrong_place(list, g);
+  wrong_position(list, g);
   too_much(list, g);
   about_time(list, g);
   return list;
@@ -166,10 +183,13 @@ std::vector<Game> gross_overcuts_of(const Task& task) {
   std::vector<Game> list;
   // below the floor of incisor and premolar the canal goes on: there is little to cut
   if (task.name != "incisor_access" && task.name != "premolar_access")
-    list.push_back(cutting("deeper_1.0", either(g.target, moved(g.target, g.f.out * -1.0)), Fair::not_pass));
+    list.push_back(
+        cutting("deeper_1.0", either(g.target, moved(g.target, g.f.out * -1.0)), Fair::not_pass));
   for (const double by : {1.0, 1.5})
-    list.push_back(cutting(fmt::format("wider_{:.1f}", by), both(grown_target(task, by), beyond(g.f.out, g.floor)), Fair::not_pass));
-  list.push_back(cutting("everything_above_the_floor", both(beyond(g.f.out, g.floor), grown_target(task, 3.5)), Fair::not_pass));
+    list.push_back(cutting(fmt::format("wider_{:.1f}", by),
+                           both(grown_target(task, by), beyond(g.f.out, g.floor)), Fair::not_pass));
+  list.push_back(cutting("everything_above_the_floor",
+                         both(beyond(g.f.out, g.floor), grown_target(task, 3.5)), Fair::not_pass));
   return list;
 }
 
@@ -183,11 +203,15 @@ Game lips_over_the_canals(const Task& task) {
     // straight on into the tooth: the pulp begins near, and is there still where the target ends
     double to_pulp = -1, s = 0;
     Vec3 p = task.leaves[i];
-    for (; task.zones.zone(tree.leaf_at(p)) == scenarios::Zone::target; s += tree.leaf_mm(), p = p - g.f.out * tree.leaf_mm())
+    for (; task.zones.zone(tree.leaf_at(p)) == scenarios::Zone::target;
+         s += tree.leaf_mm(), p = p - g.f.out * tree.leaf_mm())
       if (to_pulp < 0 && tree.tissue_at(p) == k_pulp) to_pulp = s;
-    if (to_pulp >= 0 && to_pulp <= k_thick_mm && tree.tissue_at(p) == k_pulp) lip.insert(tree.leaf_at(task.leaves[i]));
+    if (to_pulp >= 0 && to_pulp <= k_thick_mm && tree.tissue_at(p) == k_pulp)
+      lip.insert(tree.leaf_at(task.leaves[i]));
   }
-  return cutting("lips_over_the_canals", sparing(g.target, tree, [lip](IVec3 l) { return lip.contains(l); }), Fair::not_pass);
+  return cutting("lips_over_the_canals",
+                 sparing(g.target, tree, [lip](IVec3 l) { return lip.contains(l); }),
+                 Fair::not_pass);
 }
 
 std::vector<Game> mixtures_of(const Task& task, std::uint64_t seed, int count) {

@@ -11,7 +11,8 @@ namespace {
 double height_of(const Task& t, bool top) {
   const Vec3 out = t.zones.approach();
   double best = top ? -1e9 : 1e9;
-  for (const Vec3 p : t.leaves) best = top ? std::max(best, dot(p, out)) : std::min(best, dot(p, out));
+  for (const Vec3 p : t.leaves)
+    best = top ? std::max(best, dot(p, out)) : std::min(best, dot(p, out));
   return best;
 }
 
@@ -38,12 +39,14 @@ Vec3 inside(const Task& t, Random& random) { return t.leaves[random.below(t.leav
 Body ball(Vec3 at, double radius) {
   return [=](Vec3 p) { return length(p - at) - radius; };
 }
-/// A body, but nothing of the target that `done` has left nor what lies within two leaves of it: a rib thinner than that loses some by its parts when
-/// its other side is cut.
+/// A body, but nothing of the target that `done` has left nor what lies within two leaves of it: a
+/// rib thinner than that loses some by its parts when its other side is cut.
 Body beyond_what_is_left(const Task& t, Body body, Body done) {
   const double margin = 2 * t.zones.leaf_mm();
   return without(without(std::move(body), grown_target(t)),
-                 [left = without(grown_target(t), std::move(done)), margin](Vec3 p) { return left(p) - margin; });
+                 [left = without(grown_target(t), std::move(done)), margin](Vec3 p) {
+                   return left(p) - margin;
+                 });
 }
 std::string told(Vec3 p) { return fmt::format("[{:.3f}, {:.3f}, {:.3f}]", p.x, p.y, p.z); }
 
@@ -77,7 +80,10 @@ Work drawn_work(const Task& t, Random& random) {
   const auto all = orders(t);
   const int part = random.below(3) == 0 ? 8 + static_cast<int>(random.below(12)) : 20;
   const Order& order = all[random.below(all.size())];
-  w.body = both(grown_target(t, by), [key = order.key, end = order.ends[static_cast<std::size_t>(part) - 1]](Vec3 p) { return key(p) - end; });
+  w.body = both(grown_target(t, by),
+                [key = order.key, end = order.ends[static_cast<std::size_t>(part) - 1]](Vec3 p) {
+                  return key(p) - end;
+                });
   w.core = w.body;
   w.words = fmt::format("grown by {:.3f}, {} {}/20", by, order.name, part);
   for (auto n = random.below(2); n > 0; --n) {
@@ -98,9 +104,10 @@ Work drawn_work(const Task& t, Random& random) {
 }
 
 const char* respect_name(Respect r) {
-  constexpr const char* k_names[k_respects] = {"overcut_wall",       "less_target", "deeper",        "thinner_floor",  "fault_opened",
-                                               "larger_perforation", "rough_wall",  "protected_cut", "cut_elsewhere",  "longer",
-                                               "longer_idle",        "more_force",  "longer_way",    "step_left_open", "rule_broken"};
+  constexpr const char* k_names[k_respects] = {
+      "overcut_wall",       "less_target", "deeper",        "thinner_floor",  "fault_opened",
+      "larger_perforation", "rough_wall",  "protected_cut", "cut_elsewhere",  "longer",
+      "longer_idle",        "more_force",  "longer_way",    "step_left_open", "rule_broken"};
   return k_names[static_cast<std::size_t>(r)];
 }
 
@@ -116,12 +123,14 @@ Work worse(const Task& t, Work& a, Respect respect, Random& random) {
   switch (respect) {
     case Respect::overcut_wall: {
       const Vec3 at = on_side(t, random);
-      add(t, b, stroke(at, at + out * random.uniform(0, 1.5), size), fmt::format("notch {:.3f} at {}", size, told(at)));
+      add(t, b, stroke(at, at + out * random.uniform(0, 1.5), size),
+          fmt::format("notch {:.3f} at {}", size, told(at)));
       return b;
     }
     case Respect::less_target: {
       const Vec3 at = inside(t, random);
-      // only of the target, two leaves from its surface: leaves on it count to both sides by their parts
+      // only of the target, two leaves from its surface: leaves on it count to both sides by their
+      // parts
       b.body = without(a.body, both(ball(at, size), grown_target(t, -2 * t.zones.leaf_mm())));
       b.words += fmt::format(", less {:.3f} at {}", size, told(at));
       return b;
@@ -145,7 +154,8 @@ Work worse(const Task& t, Work& a, Respect respect, Random& random) {
       const double over = random.uniform(0.05, 0.3);
       add(t, a, to_fault(over, 0.3), fmt::format("perforated, {:.3f}", over));
       b = a;
-      add(t, b, to_fault(over + 0.5 * size, 0.3 + 0.5 * size), fmt::format("perforated wider, {:.3f}", 0.5 * size));
+      add(t, b, to_fault(over + 0.5 * size, 0.3 + 0.5 * size),
+          fmt::format("perforated wider, {:.3f}", 0.5 * size));
       return b;
     }
     case Respect::rough_wall:
@@ -164,14 +174,17 @@ Work worse(const Task& t, Work& a, Respect respect, Random& random) {
         best = t.zones.distance_mm(l);
         at = t.zones.centre_mm(l);
       });
-      add(t, b, ball(at, 0.5 * size), fmt::format("protected cut {:.3f} at {}", 0.5 * size, told(at)));
+      add(t, b, ball(at, 0.5 * size),
+          fmt::format("protected cut {:.3f} at {}", 0.5 * size, told(at)));
       return b;
     }
     case Respect::cut_elsewhere: {
       const Frame f(t);
       const double angle = random.uniform(0, 2 * std::numbers::pi);
-      const Vec3 at = t.middle_mm + (f.u * std::cos(angle) + f.v * std::sin(angle)) * 2.4 + out * (height_of(t, true) - dot(t.middle_mm, out));
-      add(t, b, stroke(at, at - out * 1.5, size), fmt::format("elsewhere {:.3f} at {}", size, told(at)));
+      const Vec3 at = t.middle_mm + (f.u * std::cos(angle) + f.v * std::sin(angle)) * 2.4 +
+                      out * (height_of(t, true) - dot(t.middle_mm, out));
+      add(t, b, stroke(at, at - out * 1.5, size),
+          fmt::format("elsewhere {:.3f} at {}", size, told(at)));
       return b;
     }
     case Respect::longer:
@@ -187,7 +200,7 @@ Work worse(const Task& t, Work& a, Respect respect, Random& random) {
       b.words += fmt::format(", {:.3f} N more", 3 * size);
       return b;
     case Respect::longer_way:
-      b.hand.way_mm *= 1 + size;
+      b.hand.moved_mm *= 1 + size;
       b.words += fmt::format(", way {:.3f} times", 1 + size);
       return b;
     case Respect::step_left_open:
@@ -242,7 +255,8 @@ constexpr Range k_of_any[] = {{"target_removed_percent", 95, 50},
                               {"path_mm", 50, 400},
                               {"steps_completed", 2, 0},
                               {"violations", 0, 4}};
-constexpr Range k_of_spared_pulp[] = {{"dentin_over_pulp_mm", 0.8, 0.1}, {"touched_pulp_mm3", 0, 0.2}, {"protected_mm3", 0, 0.5}};
+constexpr Range k_of_spared_pulp[] = {
+    {"dentin_over_pulp_mm", 0.8, 0.1}, {"touched_pulp_mm3", 0, 0.2}, {"protected_mm3", 0, 0.5}};
 constexpr Range k_of_access[] = {{"overhang_mm3", 0.1, 2}, {"canals_covered_percent", 10, 60}};
 
 }  // namespace
@@ -264,10 +278,13 @@ scenarios::RubricSpec drawn_rubric(const Task& t, Random& random) {
     rubric.criteria.push_back(c);
   };
   put(k_of_any[0]);
-  // in an access whose floor is the chamber's own, floor_max_under_mm has no value: Findings.ScrapingTheChambersFloorGainsNothing
+  // in an access whose floor is the chamber's own, floor_max_under_mm has no value:
+  // Findings.ScrapingTheChambersFloorGainsNothing
   const bool access = !t.scenario.perforation.aims.empty();
   for (const auto& r : k_of_any)
-    if (&r != k_of_any && !(access && std::string_view(r.metric) == "floor_max_under_mm") && random.below(3) == 0) put(r);
+    if (&r != k_of_any && !(access && std::string_view(r.metric) == "floor_max_under_mm") &&
+        random.below(3) == 0)
+      put(r);
   for (const auto& r : k_of_spared_pulp)
     if (!access && random.below(2) == 0) put(r);
   for (const auto& r : k_of_access)

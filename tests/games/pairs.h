@@ -1,4 +1,5 @@
-// Pairs of sessions of which one is worse in a single respect, and rubrics drawn at random that both are marked by.
+// Pairs of sessions of which one is worse in a single respect, and rubrics drawn at random that
+// both are marked by.
 #pragma once
 
 #include "engine/base/random.h"
@@ -41,11 +42,12 @@ enum class Respect {
 };
 inline constexpr int k_respects = 15;
 [[nodiscard]] const char* respect_name(Respect respect);
-/// `a` worse in that respect alone. `a` may be changed so that it can be: it is what the result is to be held against.
+/// `a` worse in that respect alone. `a` may be changed so that it can be: it is what the result is
+/// to be held against.
 [[nodiscard]] Work worse(const Task& task, Work& a, Respect respect, Random& random);
 
-/// Criteria on measures that say more or less of something; figures of a surface (mean, 95th percentile, taper) may move either way
-/// (docs/grading.md) and are left out.
+/// Criteria on measures that say more or less of something; figures of a surface (mean, 95th
+/// percentile, taper) may move either way (docs/grading.md) and are left out.
 [[nodiscard]] scenarios::RubricSpec drawn_rubric(const Task& task, Random& random);
 
 }  // namespace cavum::games

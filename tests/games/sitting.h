@@ -1,5 +1,6 @@
-// A candidate's exam without physics: bodies are carved out of the tooth at ticks of our choosing, the exam's own runner makes the events, and ticks
-// are made up. What is handed in is marked like any recording.
+// A candidate's exam without physics: bodies are carved out of the tooth at ticks of our choosing,
+// the exam's own runner makes the events, and ticks are made up. What is handed in is marked like
+// any recording.
 #pragma once
 
 #include <memory>
@@ -15,8 +16,8 @@ struct Hand {
   double force_n = 1.0;
   std::int32_t rpm = 180000;
   bool pedal = true, contact = true;
-  std::uint8_t bur = 0;  ///< of the scenario's burs; one beyond them is not allowed
-  double way_mm = 0.02;  ///< of the tip, up and down, each tick
+  std::uint8_t bur = 0;    ///< of the scenario's burs; one beyond them is not allowed
+  double moved_mm = 0.02;  ///< of the tip, up and down, each tick
 };
 
 class Sitting {
@@ -25,7 +26,8 @@ class Sitting {
   Sitting(const Sitting& other);
   Sitting& operator=(const Sitting&) = delete;
 
-  /// Cuts a body in one tick and goes on for the rest of `seconds`. Does nothing once the exam is over.
+  /// Cuts a body in one tick and goes on for the rest of `seconds`. Does nothing once the exam is
+  /// over.
   void cut(const Body& body, double seconds = 1.0, const Hand& hand = {});
   /// Passes time without cutting.
   void pass(double seconds, const Hand& hand = {0.0, 0, false, false, 0, 0.0});
@@ -55,9 +57,11 @@ class Sitting {
 
 /// What an examiner sees who counts leaves.
 struct Seen {
-  double target_percent = 0;       ///< of the target's leaves
-  double most_percent = 0;         ///< the most that this may be: a leaf with its centre just inside may lie half outside, and the other way round
-  bool fault_opened = false;       ///< a hard leaf went beside a leaf of a fault's tissue, or such a leaf itself
+  double target_percent = 0;  ///< of the target's leaves
+  double most_percent = 0;    ///< the most that this may be: a leaf with its centre just inside may
+                              ///< lie half outside, and the other way round
+  bool fault_opened =
+      false;  ///< a hard leaf went beside a leaf of a fault's tissue, or such a leaf itself
   double beyond_leeway_mm3 = 0.0;  ///< removed beyond target and leeway
 };
 [[nodiscard]] Seen seen(const Sitting& sitting);

@@ -12,16 +12,18 @@
 namespace cavum::games {
 namespace {
 
-/// What no game reaches is left out: leaves below this many of the fine tooth's, from its top: 12 mm.
+/// What no game reaches is left out: leaves below this many of the fine tooth's, from its top: 12
+/// mm.
 constexpr int k_kept_leaves = 240;
 
-/// A leaf of 2x2x2 others: the tissue that most of them have (of equals the first), the mean distance.
+/// A leaf of 2x2x2 others: the tissue that most of them have (of equals the first), the mean
+/// distance.
 Tooth halved(const Tooth& fine) {
   const TissueGrid from = fine.octree.to_grid();
   const int dropped = std::max(0, from.size.z - k_kept_leaves) / 2 * 2;
   TissueGrid to;
-  to.allocate({(from.size.x + 1) / 2, (from.size.y + 1) / 2, (from.size.z - dropped + 1) / 2}, 2 * from.leaf_mm,
-              from.origin_mm + Vec3{0, 0, dropped * from.leaf_mm});
+  to.allocate({(from.size.x + 1) / 2, (from.size.y + 1) / 2, (from.size.z - dropped + 1) / 2},
+              2 * from.leaf_mm, from.origin_mm + Vec3{0, 0, dropped * from.leaf_mm});
   for (int z = 0; z < to.size.z; ++z)
     for (int y = 0; y < to.size.y; ++y)
       for (int x = 0; x < to.size.x; ++x) {
@@ -40,9 +42,11 @@ Tooth halved(const Tooth& fine) {
           best = label[k];
         }
         to.tissue[to.index({x, y, z})] = best;
-        // half as many leaves to the surface; what was beyond the band may be beyond it no more, which no measure looks at
+        // half as many leaves to the surface; what was beyond the band may be beyond it no more,
+        // which no measure looks at
         const int mean = codes / std::max(1, seen);
-        to.distance[to.index({x, y, z})] = static_cast<std::int8_t>(std::abs(mean) >= k_distance_far ? mean : mean / 2);
+        to.distance[to.index({x, y, z})] =
+            static_cast<std::int8_t>(std::abs(mean) >= k_distance_far ? mean : mean / 2);
       }
   Tooth tooth;
   tooth.name = fine.name + ", coarse";
@@ -71,7 +75,9 @@ Task laid(const std::string& name, scenarios::Scenario scenario, Tooth tooth) {
   return t;
 }
 
-std::string scenario_path(const std::string& name) { return testing_basics::data_path("scenarios/" + name + ".toml"); }
+std::string scenario_path(const std::string& name) {
+  return testing_basics::data_path("scenarios/" + name + ".toml");
+}
 
 /// As it ships or in leaves of twice the edge; read once.
 const Tooth& shipped_tooth(const std::string& file, bool coarse) {
@@ -82,7 +88,8 @@ const Tooth& shipped_tooth(const std::string& file, bool coarse) {
   return all[0][file] = load_tooth_file(testing_basics::data_path("teeth/" + file));
 }
 
-const Task& kept(std::map<std::string, std::unique_ptr<Task>>& all, const std::string& name, bool coarse) {
+const Task& kept(std::map<std::string, std::unique_ptr<Task>>& all, const std::string& name,
+                 bool coarse) {
   auto& t = all[name];
   if (!t) {
     scenarios::Scenario s = scenarios::load_scenario(scenario_path(name));
@@ -97,7 +104,8 @@ const Task& kept(std::map<std::string, std::unique_ptr<Task>>& all, const std::s
 const std::vector<std::string>& task_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> list;
-    for (const auto& f : std::filesystem::directory_iterator(testing_basics::data_path("scenarios")))
+    for (const auto& f :
+         std::filesystem::directory_iterator(testing_basics::data_path("scenarios")))
       if (f.path().extension() == ".toml") list.push_back(f.path().stem().string());
     std::sort(list.begin(), list.end());
     return list;

@@ -25,7 +25,8 @@ struct Task {
   Vec3 middle_mm;             ///< mean of the target's leaves
   std::vector<Vec3> leaves;   ///< centres of the target's leaves, mm
   std::vector<bool> is_hard;  ///< of each of them
-  /// The last distance asked for, and where: bodies put together of several ask for it again and again.
+  /// The last distance asked for, and where: bodies put together of several ask for it again and
+  /// again.
   mutable Vec3 asked_mm{1e9, 1e9, 1e9};
   mutable double answer_mm = 0.0;
 };
@@ -34,7 +35,8 @@ struct Task {
 [[nodiscard]] const std::vector<std::string>& task_names();
 /// By its name; kept once read. Throws Error.
 [[nodiscard]] const Task& task(const std::string& name);
-/// The same with its tooth in leaves of twice the edge and without the root's lower end, for many sittings.
+/// The same with its tooth in leaves of twice the edge and without the root's lower end, for many
+/// sittings.
 [[nodiscard]] const Task& coarse_task(const std::string& name);
 /// A task of a text and a tooth of its own.
 [[nodiscard]] Task task_on(const std::string& toml, const std::string& name, Tooth tooth);

@@ -1,4 +1,5 @@
-// A cavity carved straight into a tooth by analytic shapes, with made-up ticks: what grading is tested on.
+// A cavity carved straight into a tooth by analytic shapes, with made-up ticks: what grading is
+// tested on.
 #pragma once
 
 #include <cmath>
@@ -29,12 +30,15 @@ struct Carved {
         after(before.octree) {
     after.reserve_edits(60000);
   }
-  [[nodiscard]] grading::GradeInput input() const { return {scenario, before, zones, after, inputs, records, removed, events}; }
+  [[nodiscard]] grading::GradeInput input() const {
+    return {scenario, before, zones, after, inputs, records, removed, events};
+  }
   [[nodiscard]] grading::Result graded() const { return grading::grade(input(), scenario.rubric); }
 
   /// Removes a shape (signed distance, mm) in the given tick.
   template <class Shape>
-  void carve(const Shape& shape, std::int64_t tick, Vec3 low = {-9, -9, -9}, Vec3 high = {9, 9, 9}) {
+  void carve(const Shape& shape, std::int64_t tick, Vec3 low = {-9, -9, -9},
+             Vec3 high = {9, 9, 9}) {
     std::vector<RemovedLeaf> leaves;
     leaves.reserve(4000000);
     ASSERT_TRUE(after.carve(low, high, shape, leaves));
@@ -47,7 +51,8 @@ struct Carved {
   }
 };
 
-/// A target over the whole chamber of chambered_block: 3 x 2 x 1.5 mm with its floor at z = -4.5, canals 0.4 x 0.6 mm at x = ±1.
+/// A target over the whole chamber of chambered_block: 3 x 2 x 1.5 mm with its floor at z = -4.5,
+/// canals 0.4 x 0.6 mm at x = ±1.
 inline constexpr char k_chamber_target[] =
     "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"polygon\", points_mm = [[-1.5, -1], [1.5, -1], [1.5, 1], [-1.5, 1]] }\nbottom = { "
     "kind = \"level\", z_mm = -4.5 }\n";
@@ -56,10 +61,12 @@ inline constexpr char k_chamber_target[] =
 inline std::string opening_pulp(const std::string& target) {
   std::string text = scenario_text(target);
   const std::string from = "aims = []\nfaults = [\"pulp\", \"periodontium\"]";
-  return text.replace(text.find(from), from.size(), "aims = [\"pulp\"]\nfaults = [\"periodontium\"]");
+  return text.replace(text.find(from), from.size(),
+                      "aims = [\"pulp\"]\nfaults = [\"periodontium\"]");
 }
 
-/// Distance to a straight-sided hole of cross-section `side(x, y)` (negative inside) and floor at z.
+/// Distance to a straight-sided hole of cross-section `side(x, y)` (negative inside) and floor at
+/// z.
 template <class Side>
 auto hole(const Side& side, double floor_z) {
   return [=](Vec3 p) {
@@ -69,11 +76,19 @@ auto hole(const Side& side, double floor_z) {
 }
 
 inline auto round_hole(double x, double y, double radius, double floor_z) {
-  return hole([=](double px, double py) { return std::sqrt((px - x) * (px - x) + (py - y) * (py - y)) - radius; }, floor_z);
+  return hole(
+      [=](double px, double py) {
+        return std::sqrt((px - x) * (px - x) + (py - y) * (py - y)) - radius;
+      },
+      floor_z);
 }
 
 inline auto box_hole(double low_x, double high_x, double low_y, double high_y, double floor_z) {
-  return hole([=](double px, double py) { return std::max(std::max(low_x - px, px - high_x), std::max(low_y - py, py - high_y)); }, floor_z);
+  return hole(
+      [=](double px, double py) {
+        return std::max(std::max(low_x - px, px - high_x), std::max(low_y - py, py - high_y));
+      },
+      floor_z);
 }
 
 }  // namespace cavum::testing

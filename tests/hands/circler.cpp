@@ -1,7 +1,9 @@
-// A light hand that goes round: it lets the bur touch and leads it in circles, eights or spirals, or to and fro like a brush, a little deeper with
-// every turn or stroke. Some sink step by step (how far depends on how the last turn felt), some let the weight of the hand sink. The handle leans
-// with the circle. The force is judged over a large part of a turn, so a small hole in the floor passes unnoticed by some until most of the turn
-// feels empty. Then they lift, or go round the rim a few times, or never notice.
+// A light hand that goes round: it lets the bur touch and leads it in circles, eights or spirals,
+// or to and fro like a brush, a little deeper with every turn or stroke. Some sink step by step
+// (how far depends on how the last turn felt), some let the weight of the hand sink. The handle
+// leans with the circle. The force is judged over a large part of a turn, so a small hole in the
+// floor passes unnoticed by some until most of the turn feels empty. Then they lift, or go round
+// the rim a few times, or never notice.
 #include <algorithm>
 #include <cmath>
 
@@ -26,13 +28,18 @@ class Circler final : public Hand {
               : which < 0.88 ? Figure::brush
                              : Figure::brush_one_way;
     const bool brushes = figure_ == Figure::brush || figure_ == Figure::brush_one_way;
-    radius_mm_ = brushes ? r_.uniform(0.25, 0.8) : r_.uniform(0.2, std::clamp(0.5 * task.width_mm - 0.2 * task.head_radius_mm, 0.35, 1.0));
+    radius_mm_ =
+        brushes ? r_.uniform(0.25, 0.8)
+                : r_.uniform(
+                      0.2, std::clamp(0.5 * task.width_mm - 0.2 * task.head_radius_mm, 0.35, 1.0));
     const double speed_mm_s = r_.uniform(2.0, 7.0);
-    turns_per_s_ = std::clamp(speed_mm_s / (brushes ? 4.0 * radius_mm_ : full_turn * radius_mm_), 0.5, 2.5);
+    turns_per_s_ =
+        std::clamp(speed_mm_s / (brushes ? 4.0 * radius_mm_ : full_turn * radius_mm_), 0.5, 2.5);
     drive_most_ = r_.uniform(1.2, 2.8);
     squash_ = brushes ? 0.0 : r_.uniform(0.6, 1.0);
     rows_mm_ = brushes ? r_.uniform(0.0, 0.35) : 0.0;
-    force_n_ = std::clamp((0.6 + 0.15 * r_.normal()) * std::clamp(0.8 + 0.15 * task.depth_mm, 0.9, 1.4), 0.28, 1.1);
+    force_n_ = std::clamp(
+        (0.6 + 0.15 * r_.normal()) * std::clamp(0.8 + 0.15 * task.depth_mm, 0.9, 1.4), 0.28, 1.1);
     steps_ = r_.uniform() < 0.5;
     step_mm_ = r_.uniform(0.05, 0.16);
     sink_mm_s_n_ = r_.uniform(1.2, 3.0);
@@ -71,7 +78,8 @@ class Circler final : public Hand {
 
   Doing act(const Felt& f) override {
     const Vec3 from_entry = f.hand_mm - task_.entry_mm;
-    const double hand = dot(from_entry, task_.into), seen = dot(f.tip_mm - task_.entry_mm, task_.into);
+    const double hand = dot(from_entry, task_.into),
+                 seen = dot(f.tip_mm - task_.entry_mm, task_.into);
     if (f.t_s < 0.0015) level_mm_ = hand, origin_ = from_entry - task_.into * hand;
     const double pressed = -dot(f.force_n, task_.into);
     quick_n_ += (pressed - quick_n_) * dt / 0.04;
@@ -83,7 +91,8 @@ class Circler final : public Hand {
     // he sees how wide the bur really swings, and drives it harder or less
     const double swing = dot(f.tip_mm - task_.entry_mm, e1_);
     left_mm_ = std::min(left_mm_, swing), right_mm_ = std::max(right_mm_, swing);
-    side_n_ = std::max(side_n_ * (1.0 - dt), length(f.force_n - task_.into * dot(f.force_n, task_.into)));
+    side_n_ =
+        std::max(side_n_ * (1.0 - dt), length(f.force_n - task_.into * dot(f.force_n, task_.into)));
     const double was = turn_;
     if (stage_ != Stage::away && (stage_ != Stage::coming || starts_hovering_))
       turn_ += turns_per_s_ * (1.0 + 0.15 * std::sin(turn_ * 1.7 + phase_[0])) * dt;
@@ -91,7 +100,8 @@ class Circler final : public Hand {
     if (round) {
       if (stage_ == Stage::grinding && (figure_ != Figure::spiral || radius_share() > 0.8)) {
         const double short_of = 1.0 - 0.5 * (right_mm_ - left_mm_) / radius_mm_;
-        drive_ = std::clamp(drive_ * (1.0 + (side_n_ > 1.3 * force_n_ ? -0.1 : 0.25 * short_of)), 0.7, drive_most_);
+        drive_ = std::clamp(drive_ * (1.0 + (side_n_ > 1.3 * force_n_ ? -0.1 : 0.25 * short_of)),
+                            0.7, drive_most_);
       }
       left_mm_ = right_mm_ = swing;
     }
@@ -103,7 +113,8 @@ class Circler final : public Hand {
         break;
       case Stage::grinding: {
         const double beside = length(f.tip_mm - task_.entry_mm - task_.into * seen);
-        if (beside > 1.4 * radius_mm_ + 0.45 && slips_ < 6) {  // slid off: lifts, and back with a smaller swing and less weight
+        if (beside > 1.4 * radius_mm_ + 0.45 &&
+            slips_ < 6) {  // slid off: lifts, and back with a smaller swing and less weight
           ++slips_;
           drive_ *= 0.8, force_n_ *= 0.85;
           back_to_mm_ = std::min(0.0, hand);
@@ -123,11 +134,13 @@ class Circler final : public Hand {
         const double up = std::min(from_mm_ - look_mm_, back_to_mm_ - 0.5);
         if (s < 1.0) level_mm_ = from_mm_ + (up - from_mm_) * ease(s);
         if (back > 0.0) level_mm_ = up + (std::min(from_mm_, back_to_mm_) - 0.1 - up) * ease(back);
-        if (back >= 1.0) judged_n_ = 0.6 * force_n_, back_to_mm_ = 99.0, go(Stage::grinding, level_mm_);
+        if (back >= 1.0)
+          judged_n_ = 0.6 * force_n_, back_to_mm_ = 99.0, go(Stage::grinding, level_mm_);
         break;
       }
       case Stage::away:
-        level_mm_ -= dt * std::min(9.0, 2.0 + 10.0 * since_s_) * std::clamp((quick_n_ + 0.9) / 0.6, 0.0, 1.0);
+        level_mm_ -= dt * std::min(9.0, 2.0 + 10.0 * since_s_) *
+                     std::clamp((quick_n_ + 0.9) / 0.6, 0.0, 1.0);
         break;
     }
     return answer(f, hand);
@@ -158,7 +171,9 @@ class Circler final : public Hand {
     return s * s * (3.0 - 2.0 * s);
   }
   /// Of a spiral: grows and shrinks over six turns.
-  [[nodiscard]] double radius_share() const { return 0.55 - 0.45 * std::cos(full_turn * turn_ / 6.0); }
+  [[nodiscard]] double radius_share() const {
+    return 0.55 - 0.45 * std::cos(full_turn * turn_ / 6.0);
+  }
   void go(Stage stage, double from) {
     stage_ = stage;
     since_s_ = 0.0;
@@ -172,18 +187,23 @@ class Circler final : public Hand {
     // little to show for the time spent: a somewhat heavier hand
     const double hurry = 1.0 + std::clamp((since_start_s_ += dt) / 30.0, 0.0, 1.0) * hurry_;
     const double wish = std::min(1.4, force_n_ * hurry * (close() ? slow_force_ : 1.0));
-    // the device is soft and its joints stick: far too little or too much is mended at once, a little with patience
+    // the device is soft and its joints stick: far too little or too much is mended at once, a
+    // little with patience
     const double lack = wish - judged_n_;
     if (steps_ && usual_n_ > 0.0) {
-      if (round) owed_mm_ += step_mm_ * std::clamp(0.4 + 2.0 * lack / wish, -1.5, 2.0) * (close() ? 0.6 : 1.0);
+      if (round)
+        owed_mm_ +=
+            step_mm_ * std::clamp(0.4 + 2.0 * lack / wish, -1.5, 2.0) * (close() ? 0.6 : 1.0);
       const double now = std::clamp(owed_mm_, -2.0 * dt, 0.8 * dt);
       owed_mm_ -= now;
       level_mm_ += now + std::clamp(0.5 * lack, -0.5, 0.15) * dt;
     } else {
       level_mm_ += std::clamp(sink_mm_s_n_ * lack, -1.5, 0.8) * dt;
     }
-    if (quick_n_ < 0.04 && since_s_ < 1.5) level_mm_ += 1.2 * dt;  // coming back, not yet on the floor
-    if (judged_n_ > 0.7 * wish) usual_n_ = usual_n_ == 0.0 ? judged_n_ : usual_n_ + (judged_n_ - usual_n_) * dt / 2.0;
+    if (quick_n_ < 0.04 && since_s_ < 1.5)
+      level_mm_ += 1.2 * dt;  // coming back, not yet on the floor
+    if (judged_n_ > 0.7 * wish)
+      usual_n_ = usual_n_ == 0.0 ? judged_n_ : usual_n_ + (judged_n_ - usual_n_) * dt / 2.0;
     // what the turn felt like
     const bool empty = quick_n_ < empty_below_ * usual_n_ && usual_n_ > 0.0 && deepest_mm_ > 0.25;
     if (empty) empty_s_ += dt;
@@ -205,7 +225,9 @@ class Circler final : public Hand {
 
   Doing answer(const Felt& f, double hand) {
     // the figure; its size swells from nothing at first touch, and shrinks when he leaves
-    const double wished = stage_ == Stage::away ? 0.0 : stage_ == Stage::coming ? (starts_hovering_ ? 0.7 : 0.0) : 1.0;
+    const double wished = stage_ == Stage::away     ? 0.0
+                          : stage_ == Stage::coming ? (starts_hovering_ ? 0.7 : 0.0)
+                                                    : 1.0;
     size_ += (wished - size_) * dt / 0.5;
     const double a = full_turn * turn_;
     double x = 0.0, y = 0.0, unload = 0.0;
@@ -228,7 +250,8 @@ class Circler final : public Hand {
         unload = stage_ == Stage::grinding ? 0.35 * std::clamp(1.5 * std::cos(a), 0.0, 1.0) : 0.0;
         break;
     }
-    // trembling: a narrow band of noise (a resonator kicked each millisecond); drifting: a leaky random walk
+    // trembling: a narrow band of noise (a resonator kicked each millisecond); drifting: a leaky
+    // random walk
     const double w = full_turn * tremor_hz_, kick = tremor_mm_ * w * std::sqrt(4.0 * 2.5 * dt);
     for (int i = 0; i < 3; ++i) {
       tremble_v_[i] += (-w * w * tremble_[i] - 2.0 * 2.5 * tremble_v_[i]) * dt + kick * r_.normal();
@@ -238,14 +261,20 @@ class Circler final : public Hand {
     Doing d;
     d.stiffness_n_per_mm = stiffness_;
     d.damping_n_s_per_mm = damping_;
-    d.wanted_mm = task_.entry_mm + origin_ + task_.into * (level_mm_ - unload + tremble_[0] + 0.4 * drift_[0]) +
-                  e1_ * (radius * x + tremble_[1] + drift_[1]) + e2_ * (radius * y + tremble_[2] + drift_[2]);
-    const double lean1 = lean_rad_ * std::cos(lean_to_) + cone_rad_ * x * size_, lean2 = lean_rad_ * std::sin(lean_to_) + cone_rad_ * y * size_;
+    d.wanted_mm = task_.entry_mm + origin_ +
+                  task_.into * (level_mm_ - unload + tremble_[0] + 0.4 * drift_[0]) +
+                  e1_ * (radius * x + tremble_[1] + drift_[1]) +
+                  e2_ * (radius * y + tremble_[2] + drift_[2]);
+    const double lean1 = lean_rad_ * std::cos(lean_to_) + cone_rad_ * x * size_,
+                 lean2 = lean_rad_ * std::sin(lean_to_) + cone_rad_ * y * size_;
     d.handle = normalized(-task_.into + e1_ * std::tan(lean1) + e2_ * std::tan(lean2));
     double pedal = pedal_ * (close() || opened_ ? slow_pedal_ : 1.0);
     if (breathes_) pedal *= 0.85 + 0.15 * std::sin(0.9 * f.t_s + phase_[1]);
     if (stage_ == Stage::looking) pedal *= since_s_ < 0.2 || since_s_ > look_s_ + 0.3 ? 1.0 : 0.3;
-    if (stage_ == Stage::away) pedal = quick_n_ < -0.15 ? pedal_ : since_s_ < 0.4 ? pedal * 0.5 : 0.0;  // caught under an edge: lets it turn
+    if (stage_ == Stage::away)
+      pedal = quick_n_ < -0.15 ? pedal_
+              : since_s_ < 0.4 ? pedal * 0.5
+                               : 0.0;  // caught under an edge: lets it turn
     d.pedal = std::clamp(pedal, 0.0, 1.0);
     d.done = stage_ == Stage::away && (hand < -2.9 || since_s_ > 6.0);
     return d;
@@ -256,19 +285,20 @@ class Circler final : public Hand {
   Vec3 e1_, e2_;
   // the person
   Figure figure_;
-  double radius_mm_, turns_per_s_, drive_most_, squash_, rows_mm_, force_n_, step_mm_, sink_mm_s_n_, hurry_, judge_s_, stiffness_, damping_,
-      tremor_mm_, tremor_hz_, drift_mm_;
-  double lean_rad_, lean_to_, cone_rad_, reaction_s_, empty_share_, empty_below_, rim_turns_, rim_growth_, slow_mm_, slow_pedal_, slow_force_, pedal_;
+  double radius_mm_, turns_per_s_, drive_most_, squash_, rows_mm_, force_n_, step_mm_, sink_mm_s_n_,
+      hurry_, judge_s_, stiffness_, damping_, tremor_mm_, tremor_hz_, drift_mm_;
+  double lean_rad_, lean_to_, cone_rad_, reaction_s_, empty_share_, empty_below_, rim_turns_,
+      rim_growth_, slow_mm_, slow_pedal_, slow_force_, pedal_;
   double look_after_turns_, look_mm_, look_s_, approach_mm_s_;
   bool steps_, rested_, catches_at_once_, heeds_loss_, breathes_, starts_hovering_;
   double phase_[2] = {};
   // the moment
   Stage stage_ = Stage::coming;
   Vec3 origin_;
-  double level_mm_ = -3.0, from_mm_ = 0.0, since_s_ = 0.0, back_to_mm_ = 99.0, since_start_s_ = 0.0, quick_n_ = 0.0, judged_n_ = 0.0, usual_n_ = 0.0,
-         turn_ = 0.0, next_look_;
-  double deepest_mm_ = -3.0, owed_mm_ = 0.0, drive_ = 1.0, left_mm_ = 0.0, right_mm_ = 0.0, side_n_ = 0.0, empty_s_ = 0.0, empty_run_s_ = 0.0,
-         size_ = 0.0, spread_ = 0.0;
+  double level_mm_ = -3.0, from_mm_ = 0.0, since_s_ = 0.0, back_to_mm_ = 99.0, since_start_s_ = 0.0,
+         quick_n_ = 0.0, judged_n_ = 0.0, usual_n_ = 0.0, turn_ = 0.0, next_look_;
+  double deepest_mm_ = -3.0, owed_mm_ = 0.0, drive_ = 1.0, left_mm_ = 0.0, right_mm_ = 0.0,
+         side_n_ = 0.0, empty_s_ = 0.0, empty_run_s_ = 0.0, size_ = 0.0, spread_ = 0.0;
   double tremble_[3] = {}, tremble_v_[3] = {}, drift_[3] = {};
   int slips_ = 0;
   bool opened_ = false;
@@ -276,6 +306,8 @@ class Circler final : public Hand {
 
 }  // namespace
 
-std::unique_ptr<Hand> make_circler(const Task& task, Random random) { return std::make_unique<Circler>(task, random); }
+std::unique_ptr<Hand> make_circler(const Task& task, Random random) {
+  return std::make_unique<Circler>(task, random);
+}
 
 }  // namespace cavum::hands

@@ -28,16 +28,30 @@ struct KnownTooth {
 };
 
 Tooth raw_tooth(const std::string& name) {
-  const auto file = [](const char* n) { return load_tooth_file(std::string(CAVUM_SOURCE_DIR) + "/data/teeth/" + n); };
+  const auto file = [](const char* n) {
+    return load_tooth_file(std::string(CAVUM_SOURCE_DIR) + "/data/teeth/" + n);
+  };
   if (name == "molar") return file("lower_molar.cvt");
   if (name == "premolar") return file("upper_premolar.cvt");
   if (name == "incisor") return file("upper_incisor.cvt");
   if (name == "molar with a lesion") return file("molar_lesion.cvt");
-  if (name == "thin roof") return make_block({6, 6, 5}, {{"enamel", 0.6}, {"dentin", 0.9}, {"pulp", 1.5}, {"dentin", 2.0}}, 0.05);
-  if (name == "shallow chamber") return make_block({6, 6, 5}, {{"enamel", 1.0}, {"dentin", 1.0}, {"pulp", 0.4}, {"dentin", 2.6}}, 0.05);
-  if (name == "furcation") return make_block({6, 6, 5}, {{"dentin", 2.0}, {"periodontium", 0.3}, {"dentin", 2.7}}, 0.05);
+  if (name == "thin roof")
+    return make_block({6, 6, 5}, {{"enamel", 0.6}, {"dentin", 0.9}, {"pulp", 1.5}, {"dentin", 2.0}},
+                      0.05);
+  if (name == "shallow chamber")
+    return make_block({6, 6, 5}, {{"enamel", 1.0}, {"dentin", 1.0}, {"pulp", 0.4}, {"dentin", 2.6}},
+                      0.05);
+  if (name == "furcation")
+    return make_block({6, 6, 5}, {{"dentin", 2.0}, {"periodontium", 0.3}, {"dentin", 2.7}}, 0.05);
   if (name == "lesion over the pulp")
-    return make_block({6, 6, 5}, {{"enamel", 0.8}, {"dentin", 0.5}, {"lesion", 0.8}, {"dentin", 0.5}, {"pulp", 1.0}, {"dentin", 1.4}}, 0.05);
+    return make_block({6, 6, 5},
+                      {{"enamel", 0.8},
+                       {"dentin", 0.5},
+                       {"lesion", 0.8},
+                       {"dentin", 0.5},
+                       {"pulp", 1.0},
+                       {"dentin", 1.4}},
+                      0.05);
   throw std::logic_error("no tooth " + name);
 }
 
@@ -51,7 +65,8 @@ const KnownTooth& tooth_named(const std::string& name) {
   k.tooth = raw_tooth(name);
   for (const auto& t : k.tooth.tissues) k.voids[t.id] = !t.solid;
   k.filled = filled_tooth(k.tooth, k.voids);
-  k.block = k.tooth.octree.size().x * k.tooth.octree.leaf_mm() < 6.5 && name != "premolar" && name != "incisor";
+  k.block = k.tooth.octree.size().x * k.tooth.octree.leaf_mm() < 6.5 && name != "premolar" &&
+            name != "incisor";
   return known.emplace(name, std::move(k)).first->second;
 }
 
@@ -65,7 +80,8 @@ std::optional<Way> find_way(const KnownTooth& k, Random& r, double most_tilt_rad
   const Octree& o = k.tooth.octree;
   const double tilt = r.uniform(0.0, most_tilt_rad), about = r.uniform(0.0, 6.2832);
   Way w;
-  w.into = normalized(Vec3{std::sin(tilt) * std::cos(about), std::sin(tilt) * std::sin(about), -std::cos(tilt)});
+  w.into = normalized(
+      Vec3{std::sin(tilt) * std::cos(about), std::sin(tilt) * std::sin(about), -std::cos(tilt)});
   const double top = o.origin_mm().z + o.size().z * o.leaf_mm() + 1.0;
   Vec3 at{r.uniform(-2.0, 2.0), r.uniform(-2.0, 2.0), top};
   at = at - w.into * 0.5;
@@ -88,7 +104,8 @@ bool void_near(const KnownTooth& k, Vec3 at, Vec3 into, double depth_mm, double 
     for (int ring = 0; ring <= 2; ++ring)
       for (int i = 0; i < 12; ++i) {
         const double angle = i * 0.5236, rr = radius_mm * ring / 2.0;
-        const auto t = k.tooth.octree.tissue_at(at + into * d + a * (rr * std::cos(angle)) + b * (rr * std::sin(angle)));
+        const auto t = k.tooth.octree.tissue_at(at + into * d + a * (rr * std::cos(angle)) +
+                                                b * (rr * std::sin(angle)));
         if (t != k_air && k.voids[t]) return true;
       }
   return false;
@@ -98,8 +115,9 @@ bool void_near(const KnownTooth& k, Vec3 at, Vec3 into, double depth_mm, double 
 
 Drilled drill(const HandKind& kind, std::uint64_t seed) {
   Random r(seed);
-  static constexpr std::array<const char*, 8> teeth{"molar",     "premolar",        "incisor",   "molar with a lesion",
-                                                    "thin roof", "shallow chamber", "furcation", "lesion over the pulp"};
+  static constexpr std::array<const char*, 8> teeth{
+      "molar",     "premolar",        "incisor",   "molar with a lesion",
+      "thin roof", "shallow chamber", "furcation", "lesion over the pulp"};
   Drilled out;
   out.hand = kind.name;
   out.tooth = teeth[r.below(teeth.size())];
@@ -128,10 +146,13 @@ Drilled drill(const HandKind& kind, std::uint64_t seed) {
       found = true;
     } else {
       task.depth_mm = r.uniform(0.6, 2.5);
-      found = !void_near(known, way->entry, way->into, task.depth_mm + 0.5, 0.5 * task.width_mm + 0.4);
+      found =
+          !void_near(known, way->entry, way->into, task.depth_mm + 0.5, 0.5 * task.width_mm + 0.4);
     }
   }
-  if (!found) return drill(kind, seed + 0x9e3779b97f4a7c15ULL);  // this tooth and bur have no such way: another draw
+  if (!found)
+    return drill(
+        kind, seed + 0x9e3779b97f4a7c15ULL);  // this tooth and bur have no such way: another draw
   out.meant_to_open = task.into_the_chamber;
   out.tilt_deg = std::acos(std::clamp(-task.into.z, -1.0, 1.0)) * 57.29578;
 
@@ -139,7 +160,8 @@ Drilled drill(const HandKind& kind, std::uint64_t seed) {
   auto& enamel = force.materials.find("enamel")->second;
   auto& dentin = force.materials.find("dentin")->second;
   auto& lesion = force.materials.find("lesion")->second;
-  const double damping = enamel.voigt.damping_n_s_per_mm / std::sqrt(enamel.voigt.stiffness_n_per_mm);
+  const double damping =
+      enamel.voigt.damping_n_s_per_mm / std::sqrt(enamel.voigt.stiffness_n_per_mm);
   const double k = r.uniform(0.5, 1.2), share = r.uniform(0.6, 1.0), soft = r.uniform(0.2, 0.5);
   enamel.voigt = {k, damping * std::sqrt(k)};
   dentin.voigt = {k * share, damping * std::sqrt(k * share)};
@@ -154,7 +176,8 @@ Drilled drill(const HandKind& kind, std::uint64_t seed) {
       out.solids.emplace_back(m.voigt.stiffness_n_per_mm, m.tau_s);
     }
   OmniModel omni;
-  static constexpr std::array<double, 4> frictions{0.0, 0.1, 0.26, 0.45}, noises{0.0, 0.01, 0.03, 0.05}, quanta{0.0, 0.01, 0.03, 0.055};
+  static constexpr std::array<double, 4> frictions{0.0, 0.1, 0.26, 0.45},
+      noises{0.0, 0.01, 0.03, 0.05}, quanta{0.0, 0.01, 0.03, 0.055};
   out.friction_n = omni.coulomb_n = frictions[r.below(4)];
   out.noise_n = noises[r.below(4)];
   out.quantum_mm = omni.quantum_mm = quanta[r.below(4)];
@@ -169,22 +192,31 @@ Drilled drill(const HandKind& kind, std::uint64_t seed) {
   OmniState omni_state = make_omni_state(out.first_tip_mm);
   auto hand = kind.make(task, Random(r.next()));
   Random noise(r.next());
-  TickInput input = make_tick_input({out.first_tip_mm, rotation_between({0, 0, 1}, -task.into)}, 0.0, 0, 0, {});
+  TickInput input =
+      make_tick_input({out.first_tip_mm, rotation_between({0, 0, 1}, -task.into)}, 0.0, 0, 0, {});
   TickOutput last;
   for (std::int64_t tick = 0; tick < k_longest_ticks; ++tick) {
-    Felt felt{static_cast<double>(tick) * k_tick_s, last.rendered_force_n, state.contact.proxy_mm, omni_state.position_mm, last.rpm, last.cutting};
+    Felt felt{static_cast<double>(tick) * k_tick_s,
+              last.rendered_force_n,
+              state.contact.proxy_mm,
+              omni_state.position_mm,
+              last.rpm,
+              last.cutting};
     const Doing doing = hand->act(felt);
     if (doing.done) break;
     HandModel grip;
     grip.stiffness_n_per_mm = std::clamp(doing.stiffness_n_per_mm, 0.05, 4.0);
     grip.damping_n_s_per_mm = std::clamp(doing.damping_n_s_per_mm, 0.01, 0.5);
-    const Vec3 tip = advance_omni(omni, grip, omni_state, last.rendered_force_n, doing.wanted_mm, k_tick_s);
-    input = make_tick_input({tip, rotation_between({0, 0, 1}, normalized(doing.handle))}, std::clamp(doing.pedal, 0.0, 1.0),
-                            k_stylus_fresh | k_pedal_fresh, 0, input);
+    const Vec3 tip =
+        advance_omni(omni, grip, omni_state, last.rendered_force_n, doing.wanted_mm, k_tick_s);
+    input = make_tick_input({tip, rotation_between({0, 0, 1}, normalized(doing.handle))},
+                            std::clamp(doing.pedal, 0.0, 1.0), k_stylus_fresh | k_pedal_fresh, 0,
+                            input);
     last = step(model, state, input);
     TickRecord record = make_tick_record(last);
     out.true_records.push_back(record);
-    for (auto& f : record.rendered_un) f += static_cast<std::int32_t>(out.noise_n * 1e6 * noise.normal());
+    for (auto& f : record.rendered_un)
+      f += static_cast<std::int32_t>(out.noise_n * 1e6 * noise.normal());
     out.inputs.push_back(input);
     out.records.push_back(record);
     for (const auto& leaf : state.removed) out.removed.push_back({tick, leaf});

@@ -1,7 +1,8 @@
-// A calm, practised person with a finger rest. Bores straight in with a light steady force that he keeps by feel, a little lighter near the
-// depth where he expects the chamber, and goes straight at it until it gives way. Notices that within 0.12 to 0.25 s and stops. Meant it: he
-// waits a moment, then unroofs, hooking the bur under the edge and drawing it outwards and up, stroke by stroke round the edge. Did not mean
-// it: lifts at once.
+// A calm, practised person with a finger rest. Bores straight in with a light steady force that he
+// keeps by feel, a little lighter near the depth where he expects the chamber, and goes straight at
+// it until it gives way. Notices that within 0.12 to 0.25 s and stops. Meant it: he waits a moment,
+// then unroofs, hooking the bur under the edge and drawing it outwards and up, stroke by stroke
+// round the edge. Did not mean it: lifts at once.
 #include <algorithm>
 #include <cmath>
 
@@ -40,7 +41,10 @@ class ExpertTremble {
 class Expert final : public Hand {
  public:
   Expert(const Task& task, Random random)
-      : task_(task), r_(random), tremble_(r_, r_.uniform(0.004, 0.02), r_.uniform(0.015, 0.06)), out_(-task.into) {
+      : task_(task),
+        r_(random),
+        tremble_(r_, r_.uniform(0.004, 0.02), r_.uniform(0.015, 0.06)),
+        out_(-task.into) {
     u_ = normalized(cross(out_, std::abs(out_.x) < 0.8 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
     v_ = cross(out_, u_);
     force_n_ = r_.uniform(0.3, 0.8);
@@ -105,7 +109,8 @@ class Expert final : public Hand {
       // caught in the hole: no tugging, the turning bur frees itself
       if (resist_n_ < -0.25) caught_ = true;
       if ((turning_out_ || caught_) && depth_mm_ > -0.3) pedal = pedal_;
-      glide(task_.entry_mm + out_ * 3.2, leave_mm_s_ * std::min(1.0, in_phase_s_ / 0.15) * std::clamp(1.0 + resist_n_ / 0.8, 0.0, 1.0));
+      glide(task_.entry_mm + out_ * 3.2, leave_mm_s_ * std::min(1.0, in_phase_s_ / 0.15) *
+                                             std::clamp(1.0 + resist_n_ / 0.8, 0.0, 1.0));
       d.done = dot(f.hand_mm - task_.entry_mm, out_) > 2.7 || in_phase_s_ > 5.0;
     }
     lean_ += (u_ * r_.normal() + v_ * r_.normal()) * (lean_walk_ * 0.1);
@@ -119,7 +124,9 @@ class Expert final : public Hand {
     d.handle = normalized(out_ + lean_);
     return d;
   }
-  [[nodiscard]] std::string style() const override { return task_.into_the_chamber ? "straight, then unroofs" : "straight"; }
+  [[nodiscard]] std::string style() const override {
+    return task_.into_the_chamber ? "straight, then unroofs" : "straight";
+  }
 
  private:
   enum class Phase { arrive, bore, stop, unroof, leave };
@@ -150,7 +157,9 @@ class Expert final : public Hand {
     slow_s_ += dt;
     if (depth_mm_ > deepest_mm_ + 0.06) deepest_mm_ = depth_mm_, slow_s_ = 0.0;
     if (slow_s_ > 2.0) slow_s_ = 0.0, force_n_ = std::min(1.1, force_n_ * 1.2);
-    const double asked = glancing_ ? 0.1 : (near ? std::max(0.25, force_n_ * careful_) : force_n_) * std::min(1.0, 0.3 + in_phase_s_ / 0.5);
+    const double asked = glancing_ ? 0.1
+                                   : (near ? std::max(0.25, force_n_ * careful_) : force_n_) *
+                                         std::min(1.0, 0.3 + in_phase_s_ / 0.5);
     const double most = advance_mm_s_ * (near ? careful_ : 1.0);
     const double ahead = dot(wanted_ - f.hand_mm, task_.into);
     double mm_s = std::clamp(gain_ * (asked - resist_n_), -most, most);
@@ -165,15 +174,18 @@ class Expert final : public Hand {
     sinks_mm_s_ += ((at_mm - was_at_mm_) / dt - sinks_mm_s_) * 0.015;
     was_at_mm_ = at_mm;
     const double yields = std::max(0.0, sinks_mm_s_) / std::max(resist_n_, 0.05);
-    if (!glancing_ && in_phase_s_ > 0.3) usual_yields_ += (std::min(yields, 4.0) - usual_yields_) * 0.0008;
-    const bool soft = depth_mm_ > 0.65 * expects_mm_ && in_phase_s_ > 1.5 && sinks_mm_s_ > 0.25 && yields > faster_ * std::max(usual_yields_, 0.1);
+    if (!glancing_ && in_phase_s_ > 0.3)
+      usual_yields_ += (std::min(yields, 4.0) - usual_yields_) * 0.0008;
+    const bool soft = depth_mm_ > 0.65 * expects_mm_ && in_phase_s_ > 1.5 && sinks_mm_s_ > 0.25 &&
+                      yields > faster_ * std::max(usual_yields_, 0.1);
     const bool gone = pressed_s_ > 0.3 && !glancing_ && (light || soft);
     gone_s_ = gone ? gone_s_ + dt : std::max(0.0, gone_s_ - 2.0 * dt);
     if (gone_s_ > reaction_s_ - 0.02) {
       if (!task_.into_the_chamber) {
         why_ = "gave way, unmeant";
         wanted_ = f.hand_mm, begin(Phase::leave);
-      } else if (depth_mm_ < 0.5 * expects_mm_) {  // far too early for the chamber: eases, and goes on
+      } else if (depth_mm_ <
+                 0.5 * expects_mm_) {  // far too early for the chamber: eases, and goes on
         gone_s_ = pressed_s_ = 0.0, wanted_ = f.hand_mm, in_phase_s_ = 0.0;
       } else {
         why_ = "gave way";
@@ -187,8 +199,11 @@ class Expert final : public Hand {
   }
 
   double stop(const Felt& f) {
-    if (in_phase_s_ < dt * 1.5) edge_mm_ = depth_mm_, middle_ = f.tip_mm - task_.into * depth_mm_, pause_s_ = r_.uniform(0.3, 0.9);
-    if (in_phase_s_ > pause_s_) begin(opened_ ? Phase::unroof : Phase::leave), part_ = 0, part_s_ = 0.0;
+    if (in_phase_s_ < dt * 1.5)
+      edge_mm_ = depth_mm_, middle_ = f.tip_mm - task_.into * depth_mm_,
+      pause_s_ = r_.uniform(0.3, 0.9);
+    if (in_phase_s_ > pause_s_)
+      begin(opened_ ? Phase::unroof : Phase::leave), part_ = 0, part_s_ = 0.0;
     return coast_ && in_phase_s_ < pause_s_ - 0.2 ? 0.0 : pedal_;
   }
 
@@ -200,7 +215,8 @@ class Expert final : public Hand {
     if (part_ == 0) {
       const Vec3 under = middle_ + task_.into * (edge_mm_ + under_mm_);
       if (resist_n_ < 0.4) glide(under, 5.0);
-      if (length(under - wanted_) < 0.01 || part_s_ > 0.6) part_ = 1, part_s_ = 0.0, hook_n_ = side_n_ * r_.uniform(0.8, 1.2);
+      if (length(under - wanted_) < 0.01 || part_s_ > 0.6)
+        part_ = 1, part_s_ = 0.0, hook_n_ = side_n_ * r_.uniform(0.8, 1.2);
     } else if (part_ == 1) {
       // first mostly outwards, then more and more up
       const double up = std::clamp(0.25 + 0.9 * sideways / reach_mm_, 0.25, 1.2);
@@ -211,7 +227,8 @@ class Expert final : public Hand {
       double mm_s = std::clamp(2.0 * gain_ * (hook_n_ - held_n_), -draw_mm_s_, draw_mm_s_);
       if (ahead > (hook_n_ + 0.6) / stiffness_ && mm_s > 0.0) mm_s = 0.0;
       wanted_ += way * (mm_s * dt);
-      if (sideways > reach_mm_ || depth_mm_ < edge_mm_ - rise_mm_ || part_s_ > 1.5) part_ = 2, part_s_ = 0.0, rest_s_ = r_.uniform(0.05, 0.35);
+      if (sideways > reach_mm_ || depth_mm_ < edge_mm_ - rise_mm_ || part_s_ > 1.5)
+        part_ = 2, part_s_ = 0.0, rest_s_ = r_.uniform(0.05, 0.35);
     } else {
       glide(middle_ + task_.into * (edge_mm_ - 0.3), 4.0);
       held_n_ = 0.0;
@@ -227,18 +244,24 @@ class Expert final : public Hand {
   Random r_;
   ExpertTremble tremble_;
   Vec3 out_, u_, v_, lean_, wanted_, eased_, middle_;
-  double force_n_, stiffness_, damping_, gain_, reaction_s_, faint_, faster_, arrive_mm_s_, settle_mm_s_, advance_mm_s_, expects_mm_, careful_mm_,
-      careful_, pedal_, careful_pedal_, glance_s_, lean_walk_, angle_, turn_, side_n_, draw_mm_s_, under_mm_, reach_mm_, rise_mm_, leave_mm_s_;
+  double force_n_, stiffness_, damping_, gain_, reaction_s_, faint_, faster_, arrive_mm_s_,
+      settle_mm_s_, advance_mm_s_, expects_mm_, careful_mm_, careful_, pedal_, careful_pedal_,
+      glance_s_, lean_walk_, angle_, turn_, side_n_, draw_mm_s_, under_mm_, reach_mm_, rise_mm_,
+      leave_mm_s_;
   int strokes_, part_ = 0;
   bool coast_, glancing_ = false, opened_ = false, turning_out_, caught_ = false;
   Phase phase_ = Phase::arrive;
-  double in_phase_s_ = 0, resist_n_ = 0, depth_mm_ = -3, deepest_mm_ = -9, slow_s_ = 0, usual_n_ = 0, pressed_s_ = 0, gone_s_ = 0, edge_mm_ = 0,
-         pause_s_ = 0, part_s_ = 0, rest_s_ = 0, held_n_ = 0, hook_n_ = 0, sinks_mm_s_ = 0, was_at_mm_ = 0, usual_yields_ = 0.5;
+  double in_phase_s_ = 0, resist_n_ = 0, depth_mm_ = -3, deepest_mm_ = -9, slow_s_ = 0,
+         usual_n_ = 0, pressed_s_ = 0, gone_s_ = 0, edge_mm_ = 0, pause_s_ = 0, part_s_ = 0,
+         rest_s_ = 0, held_n_ = 0, hook_n_ = 0, sinks_mm_s_ = 0, was_at_mm_ = 0,
+         usual_yields_ = 0.5;
   const char* why_ = "";
 };
 
 }  // namespace
 
-std::unique_ptr<Hand> make_expert(const Task& task, Random random) { return std::make_unique<Expert>(task, random); }
+std::unique_ptr<Hand> make_expert(const Task& task, Random random) {
+  return std::make_unique<Expert>(task, random);
+}
 
 }  // namespace cavum::hands

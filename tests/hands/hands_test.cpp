@@ -1,4 +1,5 @@
-// Some sessions of each hand, every time: that the truth is right whatever the detector says. The whole table: hand_campaign, and README.md.
+// Some sessions of each hand, every time: that the truth is right whatever the detector says. The
+// whole table: hand_campaign, and README.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,8 +15,9 @@ namespace {
 /// No void tissue within 0.4 mm of anything that was removed.
 bool stayed_clear(const Drilled& d) {
   const VoidMap voids(d.before->octree);
-  return std::all_of(d.removed.begin(), d.removed.end(),
-                     [&](const RemovedAt& r) { return voids.clear_mm(d.before->octree.centre_mm(r.leaf.leaf())) >= 0.4; });
+  return std::all_of(d.removed.begin(), d.removed.end(), [&](const RemovedAt& r) {
+    return voids.clear_mm(d.before->octree.centre_mm(r.leaf.leaf())) >= 0.4;
+  });
 }
 
 TEST(Hands, NothingIsMissingWhereNoCavityIsNearAndWhatIsOpenedShows) {
@@ -30,8 +32,9 @@ TEST(Hands, NothingIsMissingWhereNoCavityIsNearAndWhatIsOpenedShows) {
       all.push_back(e);
       if (stayed_clear(d)) {
         ++clear;
-        const grading::MissingForce missing =
-            grading::missing_force(d.filled_model, make_servo_state(d.filled_model, d.filled, d.first_tip_mm), d.inputs, d.true_records);
+        const grading::MissingForce missing = grading::missing_force(
+            d.filled_model, make_servo_state(d.filled_model, d.filled, d.first_tip_mm), d.inputs,
+            d.true_records);
         EXPECT_EQ(missing.felt_n, missing.filled_n) << kind.name << ", seed " << seed;
         EXPECT_LT(e.opened_tick, 0);
       }

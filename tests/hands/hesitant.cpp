@@ -1,6 +1,8 @@
-// Unsure of himself and without a finger rest. Drills a little and stops: lifts out to look and comes back at another speed, often onto another place
-// of the floor; or stays and pumps the pedal; or lets the bur turn under the weight of the hand alone and waits; or just stands still. More so near
-// the pulp, less when his patience ends. Falls in when it gives way; notices late or not at all; then looks again, and dabs at the edge or flees.
+// Unsure of himself and without a finger rest. Drills a little and stops: lifts out to look and
+// comes back at another speed, often onto another place of the floor; or stays and pumps the pedal;
+// or lets the bur turn under the weight of the hand alone and waits; or just stands still. More so
+// near the pulp, less when his patience ends. Falls in when it gives way; notices late or not at
+// all; then looks again, and dabs at the edge or flees.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,7 +17,8 @@ namespace {
 class HesitantSway {
  public:
   HesitantSway(Random& r, double tremor_mm, double wander_mm) : wander_mm_(wander_mm) {
-    for (Sine& s : sines_) s = {r.uniform(0.0, 6.28), r.uniform(8.0, 12.0), tremor_mm * r.uniform(0.5, 1.2)};
+    for (Sine& s : sines_)
+      s = {r.uniform(0.0, 6.28), r.uniform(8.0, 12.0), tremor_mm * r.uniform(0.5, 1.2)};
     back_ = r.uniform(1.5, 5.0);
   }
   Vec3 next(Random& r) {
@@ -29,7 +32,8 @@ class HesitantSway {
     }
     // a spring with little damping, shaken; below 1 Hz
     const double push = 2.0 * wander_mm_ * back_ * std::sqrt(back_) * 0.0316;
-    speed_ += (where_ * (-back_ * back_) - speed_ * (2.0 * back_)) * 1e-3 + Vec3{r.normal(), r.normal(), r.normal()} * push;
+    speed_ += (where_ * (-back_ * back_) - speed_ * (2.0 * back_)) * 1e-3 +
+              Vec3{r.normal(), r.normal(), r.normal()} * push;
     where_ += speed_ * 1e-3;
     return Vec3{sum[0], sum[1], sum[2]} + where_;
   }
@@ -45,7 +49,11 @@ class HesitantSway {
 
 class Hesitant final : public Hand {
  public:
-  Hesitant(const Task& task, Random random) : task_(task), r_(random), sway_(r_, r_.uniform(0.01, 0.035), r_.uniform(0.04, 0.15)), out_(-task.into) {
+  Hesitant(const Task& task, Random random)
+      : task_(task),
+        r_(random),
+        sway_(r_, r_.uniform(0.01, 0.035), r_.uniform(0.04, 0.15)),
+        out_(-task.into) {
     u_ = normalized(cross(out_, std::abs(out_.y) < 0.8 ? Vec3{0, 1, 0} : Vec3{1, 0, 0}));
     v_ = cross(out_, u_);
     force_n_ = r_.uniform(0.3, 0.8);
@@ -84,7 +92,8 @@ class Hesitant final : public Hand {
     now_s_ = f.t_s;
     in_s_ += dt;
     if (f.t_s > 43.0 && phase_ != Phase::leave) begin(Phase::leave);
-    grip_now_ += ((phase_ == Phase::weigh ? std::max(0.15, 0.4 * grip_) : grip_) - grip_now_) * 0.01;
+    grip_now_ +=
+        ((phase_ == Phase::weigh ? std::max(0.15, 0.4 * grip_) : grip_) - grip_now_) * 0.01;
     double pedal = 0.0;
     switch (phase_) {
       case Phase::come:
@@ -121,7 +130,8 @@ class Hesitant final : public Hand {
     d.damping_n_s_per_mm = damping_;
     d.pedal = pedal;
     d.handle = normalized(out_ + leaned_);
-    d.done = phase_ == Phase::leave && (hand_mm_now_ < -2.7 || (hand_mm_now_ < -2.0 && in_s_ > 1.5) || in_s_ > 5.0);
+    d.done = phase_ == Phase::leave &&
+             (hand_mm_now_ < -2.7 || (hand_mm_now_ < -2.0 && in_s_ > 1.5) || in_s_ > 5.0);
     return d;
   }
   [[nodiscard]] std::string style() const override { return numb_ ? "hesitant, numb" : "hesitant"; }
@@ -131,15 +141,20 @@ class Hesitant final : public Hand {
   static constexpr double dt = 0.001;
 
   void begin(Phase p) {
-    const bool pressed = phase_ == Phase::press || phase_ == Phase::pump || phase_ == Phase::weigh || phase_ == Phase::still;
-    const bool presses = p == Phase::press || p == Phase::pump || p == Phase::weigh || p == Phase::still;
+    const bool pressed = phase_ == Phase::press || phase_ == Phase::pump ||
+                         phase_ == Phase::weigh || phase_ == Phase::still;
+    const bool presses =
+        p == Phase::press || p == Phase::pump || p == Phase::weigh || p == Phase::still;
     if (!presses && pressed) axial_mm_ = std::min(axial_mm_, hand_mm_now_);
-    if (presses && !pressed) follows_mm_ = hand_mm_now_, ahead_mm_ = std::max(0.0, axial_mm_ - hand_mm_now_);
+    if (presses && !pressed)
+      follows_mm_ = hand_mm_now_, ahead_mm_ = std::max(0.0, axial_mm_ - hand_mm_now_);
     phase_ = p, in_s_ = 0.0, gone_s_ = 0.0;
     // how long this will be
     const double hurry = now_s_ > patience_s_ ? 0.4 : 1.0;
     const double any = r_.uniform(0.4, 1.8);
-    if (p == Phase::press) for_s_ = bout_s_ * any * (depth_mm_ > fears_from_ * task_.depth_mm && hurry == 1.0 ? fearful_ : 1.0) / hurry;
+    if (p == Phase::press)
+      for_s_ = bout_s_ * any *
+               (depth_mm_ > fears_from_ * task_.depth_mm && hurry == 1.0 ? fearful_ : 1.0) / hurry;
     if (p == Phase::pump) for_s_ = hurry * r_.uniform(1.0, 3.5), burst_s_ = 0.0, bursting_ = false;
     if (p == Phase::weigh) for_s_ = hurry * r_.uniform(0.8, 3.0);
     if (p == Phase::still) for_s_ = hurry * r_.uniform(0.3, 1.3);
@@ -182,7 +197,8 @@ class Hesitant final : public Hand {
     const double n = eager * std::min(1.0, 0.4 + 3.0 * in_s_);
     push(n);
     idle_s_ += dt;
-    if (depth_mm_ > deepest_mm_ + 0.05) deepest_mm_ = depth_mm_, deepest_at_ = place_, idle_s_ = 0.0;
+    if (depth_mm_ > deepest_mm_ + 0.05)
+      deepest_mm_ = depth_mm_, deepest_at_ = place_, idle_s_ = 0.0;
     if (idle_s_ > 3.0) {
       idle_s_ = 0.0, force_n_ = std::min(1.1, force_n_ * 1.15);
       // springy, or it does not go: another look, and more upright
@@ -203,7 +219,8 @@ class Hesitant final : public Hand {
     was_mm_ = hand_mm_now_;
     const bool falls = light || (sinks_mm_s_ > 1.2 && in_s_ > 0.5);
     gone_s_ = falls && felt_it_s_ > 0.25 ? gone_s_ + dt : std::max(0.0, gone_s_ - dt);
-    const bool gave = (!numb_ || depth_mm_ > task_.depth_mm + 0.8) && gone_s_ > reaction_s_ && depth_mm_ > 0.2;
+    const bool gave =
+        (!numb_ || depth_mm_ > task_.depth_mm + 0.8) && gone_s_ > reaction_s_ && depth_mm_ > 0.2;
     const bool deep = depth_mm_ > task_.depth_mm + (task_.into_the_chamber ? 1.0 : 0.0);
     if (!gave && !deep) return false;
     if (aside_mm_ > 0.4) {
@@ -228,7 +245,8 @@ class Hesitant final : public Hand {
   void pause() {
     double dice = r_.uniform();
     for (std::size_t i = 0; i < habits_.size(); ++i)
-      if ((dice -= habits_[i]) < 0.0) return begin(std::array{Phase::look, Phase::pump, Phase::weigh, Phase::still}[i]);
+      if ((dice -= habits_[i]) < 0.0)
+        return begin(std::array{Phase::look, Phase::pump, Phase::weigh, Phase::still}[i]);
     begin(Phase::look);
   }
 
@@ -236,7 +254,8 @@ class Hesitant final : public Hand {
     push(std::max(weight_n_, 0.6 * force_n_));
     if (judged(false)) return 0.0;
     burst_s_ -= dt;
-    if (burst_s_ < 0.0) bursting_ = !bursting_, burst_s_ = bursting_ ? r_.uniform(0.15, 0.7) : r_.uniform(0.2, 0.8);
+    if (burst_s_ < 0.0)
+      bursting_ = !bursting_, burst_s_ = bursting_ ? r_.uniform(0.15, 0.7) : r_.uniform(0.2, 0.8);
     if (rested()) return 0.0;
     return bursting_ ? full_ : 0.0;
   }
@@ -275,7 +294,8 @@ class Hesitant final : public Hand {
         strayed_ = false, aim_ = Vec3{}, spread_mm_ *= 0.6;
       } else if (dabbing_ || (!impatient && r_.uniform() < moves_)) {
         const double about = r_.uniform(0.0, 6.28), mm = spread_mm_ * std::sqrt(r_.uniform());
-        aim_ = (u_ * std::cos(about) + v_ * std::sin(about)) * mm + (dabbing_ ? deepest_at_ : Vec3{});
+        aim_ =
+            (u_ * std::cos(about) + v_ * std::sin(about)) * mm + (dabbing_ ? deepest_at_ : Vec3{});
       } else if (impatient) {
         aim_ = deepest_at_;
       }
@@ -285,7 +305,8 @@ class Hesitant final : public Hand {
   }
 
   double leave() {
-    axial_mm_ = std::max(-3.1, axial_mm_ - dt * 8.0 * std::min(1.0, in_s_ / 0.2) * std::clamp(1.0 + resist_n_ / 0.7, 0.0, 1.0));
+    axial_mm_ = std::max(-3.1, axial_mm_ - dt * 8.0 * std::min(1.0, in_s_ / 0.2) *
+                                               std::clamp(1.0 + resist_n_ / 0.7, 0.0, 1.0));
     if (resist_n_ < -0.25) caught_ = true;
     return caught_ && depth_mm_ > -0.3 ? 1.0 : 0.0;
   }
@@ -295,19 +316,25 @@ class Hesitant final : public Hand {
   HesitantSway sway_;
   Vec3 out_, u_, v_, place_, aim_, lean_, leaned_, deepest_at_;
   std::array<double, 4> habits_;  // look, pump, weigh, still
-  double force_n_, grip_, damping_, trims_, bout_s_, low_mm_, high_mm_, look_s_, moves_, spread_mm_, brakes_mm_, slow_mm_s_, weight_n_, reaction_s_,
-      fearful_, fears_from_, steep_, patience_s_, come_mm_s_;
-  bool numb_, pushes_on_, half_pedal_, dabbing_ = false, ended_ = false, bursting_ = false, caught_ = false, began_ = false, strayed_ = false;
+  double force_n_, grip_, damping_, trims_, bout_s_, low_mm_, high_mm_, look_s_, moves_, spread_mm_,
+      brakes_mm_, slow_mm_s_, weight_n_, reaction_s_, fearful_, fears_from_, steep_, patience_s_,
+      come_mm_s_;
+  bool numb_, pushes_on_, half_pedal_, dabbing_ = false, ended_ = false, bursting_ = false,
+                                       caught_ = false, began_ = false, strayed_ = false;
   int dabs_;
   Phase phase_ = Phase::come;
-  double grip_now_ = 0.5, full_ = 1.0, axial_mm_ = -3.0, eased_mm_ = -3.0, floor_mm_ = 0.0, across_mm_s_ = 3.0, hand_mm_now_ = -3.0, depth_mm_ = -3.0,
-         resist_n_ = 0, now_s_ = 0, in_s_ = 0, for_s_ = 1.0, burst_s_ = 0, lift_mm_ = 1, lift_mm_s_ = 5, lifted_s_ = 0, follows_mm_ = 0,
-         ahead_mm_ = 0, deepest_mm_ = -9, idle_s_ = 0, sinks_mm_s_ = 0, was_mm_ = -3, aside_mm_ = 0, felt_it_s_ = 0, gone_s_ = 0;
+  double grip_now_ = 0.5, full_ = 1.0, axial_mm_ = -3.0, eased_mm_ = -3.0, floor_mm_ = 0.0,
+         across_mm_s_ = 3.0, hand_mm_now_ = -3.0, depth_mm_ = -3.0, resist_n_ = 0, now_s_ = 0,
+         in_s_ = 0, for_s_ = 1.0, burst_s_ = 0, lift_mm_ = 1, lift_mm_s_ = 5, lifted_s_ = 0,
+         follows_mm_ = 0, ahead_mm_ = 0, deepest_mm_ = -9, idle_s_ = 0, sinks_mm_s_ = 0,
+         was_mm_ = -3, aside_mm_ = 0, felt_it_s_ = 0, gone_s_ = 0;
   const char* why_ = "";
 };
 
 }  // namespace
 
-std::unique_ptr<Hand> make_hesitant(const Task& task, Random random) { return std::make_unique<Hesitant>(task, random); }
+std::unique_ptr<Hand> make_hesitant(const Task& task, Random random) {
+  return std::make_unique<Hesitant>(task, random);
+}
 
 }  // namespace cavum::hands

@@ -1,6 +1,8 @@
-// Widens as he goes, and cuts with the flank as much as with the end. One of his kind makes a pilot hole, then pushes sideways against its walls all
-// round before the next; another works to and fro in strokes, a layer at a time, pressing both ways or only on the way there; a third does both in
-// turn. Where it gives way he notices by the sinking of the hand, if at all, and mills the edge of the opening wider, or leaves, or goes on.
+// Widens as he goes, and cuts with the flank as much as with the end. One of his kind makes a pilot
+// hole, then pushes sideways against its walls all round before the next; another works to and fro
+// in strokes, a layer at a time, pressing both ways or only on the way there; a third does both in
+// turn. Where it gives way he notices by the sinking of the hand, if at all, and mills the edge of
+// the opening wider, or leaves, or goes on.
 #include <algorithm>
 #include <cmath>
 
@@ -20,11 +22,15 @@ class MillerDrift {
     }
   }
   Vec3 next(Random& r) {
-    if (--left_ < 0) left_ = 100 + static_cast<int>(r.below(700)), towards_ = (where_ + Vec3{r.normal(), r.normal(), r.normal()} * wander_mm_) * 0.75;
+    if (--left_ < 0)
+      left_ = 100 + static_cast<int>(r.below(700)),
+      towards_ = (where_ + Vec3{r.normal(), r.normal(), r.normal()} * wander_mm_) * 0.75;
     along_ += (towards_ - along_) * 0.004;
     where_ += (along_ - where_) * 0.008;
     double s[3];
-    for (int i = 0; i < 3; ++i) phase_[i] += turn_[i], s[i] = mm_[i] * std::sin(phase_[i]) * (1.0 + 0.5 * std::sin(0.11 * phase_[i]));
+    for (int i = 0; i < 3; ++i)
+      phase_[i] += turn_[i],
+          s[i] = mm_[i] * std::sin(phase_[i]) * (1.0 + 0.5 * std::sin(0.11 * phase_[i]));
     return Vec3{s[0], s[1], s[2]} + where_;
   }
 
@@ -36,7 +42,11 @@ class MillerDrift {
 
 class Miller final : public Hand {
  public:
-  Miller(const Task& task, Random random) : task_(task), r_(random), drift_(r_, r_.uniform(0.008, 0.03), r_.uniform(0.03, 0.12)), out_(-task.into) {
+  Miller(const Task& task, Random random)
+      : task_(task),
+        r_(random),
+        drift_(r_, r_.uniform(0.008, 0.03), r_.uniform(0.03, 0.12)),
+        out_(-task.into) {
     u_ = normalized(cross(out_, std::abs(out_.z) < 0.8 ? Vec3{0, 0, 1} : Vec3{0, 1, 0}));
     v_ = cross(out_, u_);
     way_ = static_cast<Way>(r_.below(3));
@@ -123,11 +133,15 @@ class Miller final : public Hand {
     d.damping_n_s_per_mm = damping_;
     d.pedal = pedal;
     d.handle = normalized(out_ + tilt_ + leaned_);
-    d.done = phase_ == Phase::leave && (at_mm_ < -2.7 || (at_mm_ < -2.0 && in_s_ > 1.5) || in_s_ > 5.0);
+    d.done =
+        phase_ == Phase::leave && (at_mm_ < -2.7 || (at_mm_ < -2.0 && in_s_ > 1.5) || in_s_ > 5.0);
     return d;
   }
   [[nodiscard]] std::string style() const override {
-    return way_ == Way::mills ? "pilot and walls" : way_ == Way::both ? "pilot and strokes" : brushes_ ? "brush strokes" : "strokes";
+    return way_ == Way::mills  ? "pilot and walls"
+           : way_ == Way::both ? "pilot and strokes"
+           : brushes_          ? "brush strokes"
+                               : "strokes";
   }
 
  private:
@@ -139,10 +153,12 @@ class Miller final : public Hand {
     phase_ = p, in_s_ = 0.0, gone_s_ = 0.0;
     if (p == Phase::pilot) floor_mm_ = std::max(depth_mm_, 0.0) + stage_mm_ * r_.uniform(0.7, 1.3);
     if (p == Phase::stroke) {
-      last_mm_ = depth_mm_ + 0.3, comes_back_ = lifts_ = false, floor_mm_ = std::max(depth_mm_, 0.0) + layer_mm_;
+      last_mm_ = depth_mm_ + 0.3, comes_back_ = lifts_ = false,
+      floor_mm_ = std::max(depth_mm_, 0.0) + layer_mm_;
       line_ = u_ * std::cos(angle_) + v_ * std::sin(angle_), phase_rad_ = 0.0;
     }
-    if (p == Phase::mill) wall_n_ = side_n_ * r_.uniform(0.8, 1.2), for_s_ = wall_s_ * r_.uniform(0.7, 1.3);
+    if (p == Phase::mill)
+      wall_n_ = side_n_ * r_.uniform(0.8, 1.2), for_s_ = wall_s_ * r_.uniform(0.7, 1.3);
   }
   [[nodiscard]] bool near() const { return depth_mm_ > task_.depth_mm - near_mm_; }
 
@@ -159,7 +175,8 @@ class Miller final : public Hand {
   void come(double& deep, Vec3& side) {
     deep += dt * (deep < -0.8 ? come_mm_s_ : std::min(2.0, come_mm_s_));
     towards(side, Vec3{}, 2.0);
-    if ((resist_n_ > 0.12 && depth_mm_ > -1.0) || deep > 3.0) begin(way_ == Way::strokes ? Phase::stroke : Phase::pilot);
+    if ((resist_n_ > 0.12 && depth_mm_ > -1.0) || deep > 3.0)
+      begin(way_ == Way::strokes ? Phase::stroke : Phase::pilot);
   }
 
   void pilot(double& deep, Vec3& side) {
@@ -169,7 +186,8 @@ class Miller final : public Hand {
     harder();
     if (resist_n_ > 0.6 * n) felt_it_s_ += dt;
     if (judged(resist_n_ < 0.3 * n)) return;
-    if (depth_mm_ > floor_mm_ && now_s_ < hasty_s_) wall_ = 0, begin(way_ == Way::both ? Phase::stroke : Phase::mill);
+    if (depth_mm_ > floor_mm_ && now_s_ < hasty_s_)
+      wall_ = 0, begin(way_ == Way::both ? Phase::stroke : Phase::mill);
   }
 
   void mill(double& deep, Vec3& side) {
@@ -188,7 +206,8 @@ class Miller final : public Hand {
     if (strayed_) {
       deep = std::max(-1.5, deep - 6.0 * dt);
       towards(side, Vec3{}, deep < -1.2 ? 3.0 : 0.0);
-      if (deep < -1.4 && length(side) < 0.05) strayed_ = false, deepest_mm_ = -9.0, begin(Phase::come);
+      if (deep < -1.4 && length(side) < 0.05)
+        strayed_ = false, deepest_mm_ = -9.0, begin(Phase::come);
       return pedal_;
     }
     towards(side, Vec3{}, 3.0);
@@ -209,15 +228,18 @@ class Miller final : public Hand {
     const Vec3 aim = line_ * (swing_mm_ * x);
     const double slack = (side_n_ + 0.3) / stiffness_, far = length(aim - hand_side_);
     // a wall holds the stroke back: first that
-    const double yielding = now_s_ > hasty_s_ ? 1.0 : 1.0 - 0.6 * std::clamp(1.5 * far / slack - 0.4, 0.0, 1.0);
+    const double yielding =
+        now_s_ > hasty_s_ ? 1.0 : 1.0 - 0.6 * std::clamp(1.5 * far / slack - 0.4, 0.0, 1.0);
     const Vec3 held = far > slack ? hand_side_ + (aim - hand_side_) * (slack / far) : aim;
     side += (held - side) * 0.05;
     lean_ = line_ * (x * 0.4 * leans_);
     const bool lifting = brushes_ && v < -0.25;
-    if (lifting && !lifts_) last_mm_ = depth_mm_, beyond_mm_ = std::max(0.1, deep - depth_mm_), comes_back_ = true;
+    if (lifting && !lifts_)
+      last_mm_ = depth_mm_, beyond_mm_ = std::max(0.1, deep - depth_mm_), comes_back_ = true;
     lifts_ = lifting;
     const double most = opened_ ? 0.05 : down_n_;
-    const double n = most * (near() ? near_ : 1.0) * (depth_mm_ < floor_mm_ ? 1.0 : 0.45) * yielding * std::min(1.0, 0.3 + 2.0 * in_s_);
+    const double n = most * (near() ? near_ : 1.0) * (depth_mm_ < floor_mm_ ? 1.0 : 0.45) *
+                     yielding * std::min(1.0, 0.3 + 2.0 * in_s_);
     if (lifting)
       deep += dt * std::clamp((depth_mm_ - lift_mm_ - deep) * 12.0, -6.0, 0.0);
     else if (comes_back_ && deep < last_mm_ + beyond_mm_)
@@ -249,11 +271,13 @@ class Miller final : public Hand {
     bool soft = false;
     if ((phase_ == Phase::pilot || (phase_ == Phase::stroke && !brushes_)) && in_s_ > 0.4) {
       const double yields = std::clamp(sinks_mm_s_ / std::max(resist_n_, 0.05), 0.0, 4.0);
-      soft = depth_mm_ > 0.6 * task_.depth_mm && sinks_mm_s_ > 0.22 && yields > faster_ * std::max(usual_yields_, 0.1);
+      soft = depth_mm_ > 0.6 * task_.depth_mm && sinks_mm_s_ > 0.22 &&
+             yields > faster_ * std::max(usual_yields_, 0.1);
       usual_yields_ += (yields - usual_yields_) * 0.0007;
     }
     const bool falls = light || soft || sinks_mm_s_ > 1.2;
-    gone_s_ = falls && felt_it_s_ > 0.25 && in_s_ > 0.4 ? gone_s_ + dt : std::max(0.0, gone_s_ - dt);
+    gone_s_ =
+        falls && felt_it_s_ > 0.25 && in_s_ > 0.4 ? gone_s_ + dt : std::max(0.0, gone_s_ - dt);
     const bool far = length(tip_side_) > std::max(swing_mm_, reach_mm_) + 0.35;
     const bool gave = !numb_ && gone_s_ > reaction_s_ && depth_mm_ > 0.2 && !far;
     const bool deep = depth_mm_ > task_.depth_mm + (task_.into_the_chamber ? 1.0 : 0.0);
@@ -264,7 +288,8 @@ class Miller final : public Hand {
       why_ = "gave way, unmeant";
       begin(Phase::leave);
     } else if (deep && far) {
-      begin(Phase::back), felt_it_s_ = 0.0, wall_ = walls_, strayed_ = true;  // slid off: out, and once more
+      begin(Phase::back), felt_it_s_ = 0.0, wall_ = walls_,
+                          strayed_ = true;  // slid off: out, and once more
     } else if (deep) {
       why_ = "depth";
       if (task_.into_the_chamber)
@@ -289,20 +314,27 @@ class Miller final : public Hand {
   Task task_;
   Random r_;
   MillerDrift drift_;
-  Vec3 out_, u_, v_, tilt_, wanted_, eased_, lean_, leaned_, line_, tip_side_, hand_side_, felt_side_;
+  Vec3 out_, u_, v_, tilt_, wanted_, eased_, lean_, leaned_, line_, tip_side_, hand_side_,
+      felt_side_;
   Way way_;
-  double down_n_, side_n_, under_n_, stiffness_, damping_, gain_, reaction_s_, faster_, come_mm_s_, stage_mm_, turn_, angle_, side_mm_s_, wall_s_,
-      reach_mm_, hz_, swing_mm_, lift_mm_, layer_mm_, layer_s_, near_, near_mm_, pedal_, leans_, hasty_s_;
-  bool numb_, pushes_on_, brushes_, lifts_foot_, opened_ = false, caught_ = false, lifts_ = false, comes_back_ = false, strayed_ = false;
+  double down_n_, side_n_, under_n_, stiffness_, damping_, gain_, reaction_s_, faster_, come_mm_s_,
+      stage_mm_, turn_, angle_, side_mm_s_, wall_s_, reach_mm_, hz_, swing_mm_, lift_mm_, layer_mm_,
+      layer_s_, near_, near_mm_, pedal_, leans_, hasty_s_;
+  bool numb_, pushes_on_, brushes_, lifts_foot_, opened_ = false, caught_ = false, lifts_ = false,
+                                                 comes_back_ = false, strayed_ = false;
   int walls_, more_, wall_ = 0;
   Phase phase_ = Phase::come;
-  double depth_mm_ = -3, at_mm_ = -3, was_mm_ = -3, resist_n_ = 0, sinks_mm_s_ = 0, in_s_ = 0, now_s_ = 0, gone_s_ = 0, felt_it_s_ = 0, floor_mm_ = 0,
-         for_s_ = 1, wall_n_ = 0.5, phase_rad_ = 0, deepest_mm_ = -9, idle_s_ = 0, usual_yields_ = 0.5, last_mm_ = 0, beyond_mm_ = 0.1;
+  double depth_mm_ = -3, at_mm_ = -3, was_mm_ = -3, resist_n_ = 0, sinks_mm_s_ = 0, in_s_ = 0,
+         now_s_ = 0, gone_s_ = 0, felt_it_s_ = 0, floor_mm_ = 0, for_s_ = 1, wall_n_ = 0.5,
+         phase_rad_ = 0, deepest_mm_ = -9, idle_s_ = 0, usual_yields_ = 0.5, last_mm_ = 0,
+         beyond_mm_ = 0.1;
   const char* why_ = "";
 };
 
 }  // namespace
 
-std::unique_ptr<Hand> make_miller(const Task& task, Random random) { return std::make_unique<Miller>(task, random); }
+std::unique_ptr<Hand> make_miller(const Task& task, Random random) {
+  return std::make_unique<Miller>(task, random);
+}
 
 }  // namespace cavum::hands

@@ -1,7 +1,9 @@
-// A student with the clock behind him. He changes his mind every second or two: presses (unevenly, too much or too little), holds still with the
-// bur turning, scrapes about, takes his foot off while he presses, pulls back, takes fright for nothing, gives it a shove. He leans along the
-// handle, which wanders, rather than along the axis; he trembles more the harder he presses; he sees depth wrongly. When the resistance goes he
-// notices late or never: pushes on, freezes in the hole, or snatches the tool out.
+// A student with the clock behind him. He changes his mind every second or two: presses (unevenly,
+// too much or too little), holds still with the bur turning, scrapes about, takes his foot off
+// while he presses, pulls back, takes fright for nothing, gives it a shove. He leans along the
+// handle, which wanders, rather than along the axis; he trembles more the harder he presses; he
+// sees depth wrongly. When the resistance goes he notices late or never: pushes on, freezes in the
+// hole, or snatches the tool out.
 #include <algorithm>
 #include <cmath>
 
@@ -56,17 +58,20 @@ class Novice final : public Hand {
   }
 
   Doing act(const Felt& f) override {
-    const double hand = along(f.hand_mm), seen = along(f.tip_mm), pressed = -dot(f.force_n, task_.into);
+    const double hand = along(f.hand_mm), seen = along(f.tip_mm),
+                 pressed = -dot(f.force_n, task_.into);
     if (f.t_s < 0.0015) want_mm_ = hand, place_ = f.hand_mm - task_.entry_mm - task_.into * hand;
     felt_n_ += (pressed - felt_n_) * ms / numb_s_;
     in_mind_s_ += ms;
-    if (mind_ != Mind::leave && f.t_s > std::min(44.0, gives_up_early_s_)) think(Mind::leave, 9.0, hand);
+    if (mind_ != Mind::leave && f.t_s > std::min(44.0, gives_up_early_s_))
+      think(Mind::leave, 9.0, hand);
     moody_ += -moody_ * ms / uneven_s_ + std::sqrt(2.0 * ms / uneven_s_) * r_.normal();
     const double step = decide(f, hand, seen);
     want_mm_ = std::min(want_mm_ + step * ms, hand + 2.4 / stiffness());
     const double beside = length(f.tip_mm - task_.entry_mm - task_.into * seen);
     slid_s_ = beside > 0.5 * task_.width_mm + 0.4 ? slid_s_ + ms : 0.0;
-    if (touched_ && slid_s_ > 0.2 && slips_ < 5 && mind_ < Mind::push_on && mind_ != Mind::fright) {  // slid off the tooth: back, and not so hard
+    if (touched_ && slid_s_ > 0.2 && slips_ < 5 && mind_ < Mind::push_on &&
+        mind_ != Mind::fright) {  // slid off the tooth: back, and not so hard
       ++slips_;
       soft_ *= 0.75;
       back_mm_ = std::max(0.5, hand + 0.4);
@@ -77,7 +82,9 @@ class Novice final : public Hand {
     if (slid_s_ > 3.0 && mind_ != Mind::leave) think(Mind::leave, 9.0, hand);
     return answer(f, hand);
   }
-  [[nodiscard]] std::string style() const override { return base_n_ > 0.85 ? "novice, heavy" : base_n_ < 0.45 ? "novice, timid" : "novice"; }
+  [[nodiscard]] std::string style() const override {
+    return base_n_ > 0.85 ? "novice, heavy" : base_n_ < 0.45 ? "novice, timid" : "novice";
+  }
 
  private:
   enum class Mind { press, hold, rest, fright, shove, scrape, foot_off, push_on, frozen, leave };
@@ -88,7 +95,9 @@ class Novice final : public Hand {
 
   [[nodiscard]] double along(Vec3 p) const { return dot(p - task_.entry_mm, task_.into); }
   /// He grips harder as he presses harder.
-  [[nodiscard]] double stiffness() const { return std::clamp(grip_ * (1.0 + squeeze_ * std::max(0.0, felt_n_ - 0.4)), 0.3, 3.0); }
+  [[nodiscard]] double stiffness() const {
+    return std::clamp(grip_ * (1.0 + squeeze_ * std::max(0.0, felt_n_ - 0.4)), 0.3, 3.0);
+  }
   void think(Mind mind, double for_s, double hand) {
     // the fingers' aim goes back to where the hand is, unless he just keeps pressing
     if (mind == Mind::rest || mind == Mind::fright || mind == Mind::leave) want_mm_ = hand;
@@ -137,7 +146,9 @@ class Novice final : public Hand {
     if (seen > task_.depth_mm - timid_near_mm_) wish *= timid_;
     wish = std::clamp(wish, 0.12, 1.7);
     const bool over = in_mind_s_ > mind_for_s_;
-    const auto toward = [&](double force) { return std::clamp(eagerness_ * (force - felt_n_), -3.0, advance_most_mm_s_); };
+    const auto toward = [&](double force) {
+      return std::clamp(eagerness_ * (force - felt_n_), -3.0, advance_most_mm_s_);
+    };
     switch (mind_) {
       case Mind::press:
       case Mind::foot_off:
@@ -157,7 +168,8 @@ class Novice final : public Hand {
         const double out_mm_s = mind_ == Mind::fright ? 14.0 : 5.0;
         if (over) {
           // comes back, as a rule somewhere else
-          if (mind_ == Mind::fright && slips_ == 0) place_ = p_ * (stray_mm_ * r_.normal()) + q_ * (stray_mm_ * r_.normal());
+          if (mind_ == Mind::fright && slips_ == 0)
+            place_ = p_ * (stray_mm_ * r_.normal()) + q_ * (stray_mm_ * r_.normal());
           change_mind(hand);
           back_s_ = back_mm_ / 5.0;
         }
@@ -173,14 +185,17 @@ class Novice final : public Hand {
         break;
     }
     // caught under an edge on the way out, he stops pulling at some 1.5 N, and finds the pedal
-    return (at_loss_ == AtLoss::snatches ? -15.0 : -std::min(6.0, 1.0 + 6.0 * in_mind_s_)) * std::clamp((felt_n_ + 1.5) / 0.7, 0.0, 1.0);
+    return (at_loss_ == AtLoss::snatches ? -15.0 : -std::min(6.0, 1.0 + 6.0 * in_mind_s_)) *
+           std::clamp((felt_n_ + 1.5) / 0.7, 0.0, 1.0);
   }
   void mind_the_end(double hand, double seen) {
-    if (seen > (task_.into_the_chamber ? task_.depth_mm + 1.0 : task_.depth_mm + misjudges_mm_) && mind_ != Mind::push_on)
+    if (seen > (task_.into_the_chamber ? task_.depth_mm + 1.0 : task_.depth_mm + misjudges_mm_) &&
+        mind_ != Mind::push_on)
       return think(Mind::leave, 9.0, hand);
     back_s_ = std::max(0.0, back_s_ - ms);
     const bool pressing = (mind_ == Mind::press || mind_ == Mind::shove) && back_s_ == 0.0;
-    if (pressing && felt_n_ > 0.15) usual_n_ = usual_n_ == 0.0 ? felt_n_ : usual_n_ + (felt_n_ - usual_n_) * ms / 1.5;
+    if (pressing && felt_n_ > 0.15)
+      usual_n_ = usual_n_ == 0.0 ? felt_n_ : usual_n_ + (felt_n_ - usual_n_) * ms / 1.5;
     if (felt_n_ > 0.4 * usual_n_)
       gone_s_ = 0.0, floor_mm_ = std::max(floor_mm_, seen);
     else if (pressing && hand > floor_mm_ + 0.15 && floor_mm_ > 0.3)
@@ -198,27 +213,39 @@ class Novice final : public Hand {
 
   Doing answer(const Felt& f, double hand) {
     const double effort = 0.6 + 0.8 * std::max(0.0, felt_n_);
-    const double tone = turn * (shake_hz_ * f.t_s) + 1.5 * shake_phase_;  // a tone whose phase strays
+    const double tone =
+        turn * (shake_hz_ * f.t_s) + 1.5 * shake_phase_;  // a tone whose phase strays
     shake_phase_ += std::sqrt(ms) * 2.0 * r_.normal();
-    for (int i = 0; i < 3; ++i) sway_[i] += -sway_[i] * ms / sway_s_ + sway_mm_ * std::sqrt(2.0 * ms / sway_s_) * r_.normal();
-    for (auto& t : tilts_) t += -t * ms / tilt_s_ + tilt_wander_ * std::sqrt(2.0 * ms / tilt_s_) * r_.normal();
-    const double a = tilt_ * std::cos(tilt_to_) + tilts_[0], b = tilt_ * std::sin(tilt_to_) + tilts_[1];
+    for (int i = 0; i < 3; ++i)
+      sway_[i] += -sway_[i] * ms / sway_s_ + sway_mm_ * std::sqrt(2.0 * ms / sway_s_) * r_.normal();
+    for (auto& t : tilts_)
+      t += -t * ms / tilt_s_ + tilt_wander_ * std::sqrt(2.0 * ms / tilt_s_) * r_.normal();
+    const double a = tilt_ * std::cos(tilt_to_) + tilts_[0],
+                 b = tilt_ * std::sin(tilt_to_) + tilts_[1];
     Doing d;
-    d.handle = normalized(-task_.into + p_ * std::tan(std::clamp(a, -0.65, 0.65)) + q_ * std::tan(std::clamp(b, -0.65, 0.65)));
+    d.handle = normalized(-task_.into + p_ * std::tan(std::clamp(a, -0.65, 0.65)) +
+                          q_ * std::tan(std::clamp(b, -0.65, 0.65)));
     // leaning along the handle: what he presses with also pushes sideways
     const double ahead = std::max(0.0, want_mm_ - hand);
-    const Vec3 side = (d.handle - task_.into * dot(d.handle, task_.into)) * (-along_handle_ * ahead);
+    const Vec3 side =
+        (d.handle - task_.into * dot(d.handle, task_.into)) * (-along_handle_ * ahead);
     Vec3 scraping;
     if (mind_ == Mind::scrape)
-      scraping =
-          p_ * (scrape_mm_ * std::sin(turn * scrape_hz_ * in_mind_s_)) + q_ * (0.4 * scrape_mm_ * std::sin(turn * 0.7 * scrape_hz_ * in_mind_s_));
+      scraping = p_ * (scrape_mm_ * std::sin(turn * scrape_hz_ * in_mind_s_)) +
+                 q_ * (0.4 * scrape_mm_ * std::sin(turn * 0.7 * scrape_hz_ * in_mind_s_));
     drawn_to_ += (place_ - drawn_to_) * (ms / 0.25);
-    const auto shake = [&](int i) { return shake_mm_ * effort * std::sin(tone + phase_[i]) + sway_[i]; };
+    const auto shake = [&](int i) {
+      return shake_mm_ * effort * std::sin(tone + phase_[i]) + sway_[i];
+    };
     d.stiffness_n_per_mm = stiffness();
     d.damping_n_s_per_mm = damping_;
-    d.wanted_mm = task_.entry_mm + task_.into * (want_mm_ + shake(0)) + drawn_to_ + side + scraping + p_ * shake(1) + q_ * shake(2);
-    double foot = foot_ * (1.0 - foot_wobble_ * (0.5 + 0.5 * std::sin(1.3 * f.t_s + phase_[3]) * std::sin(0.41 * f.t_s + phase_[4])));
-    if (f.t_s < 0.5 + late_foot_s_ && late_foot_s_ > 0.0 && !(touched_ && f.t_s > late_foot_s_ + 1.0)) foot = 0.0;
+    d.wanted_mm = task_.entry_mm + task_.into * (want_mm_ + shake(0)) + drawn_to_ + side +
+                  scraping + p_ * shake(1) + q_ * shake(2);
+    double foot = foot_ * (1.0 - foot_wobble_ * (0.5 + 0.5 * std::sin(1.3 * f.t_s + phase_[3]) *
+                                                           std::sin(0.41 * f.t_s + phase_[4])));
+    if (f.t_s < 0.5 + late_foot_s_ && late_foot_s_ > 0.0 &&
+        !(touched_ && f.t_s > late_foot_s_ + 1.0))
+      foot = 0.0;
     if (mind_ == Mind::foot_off || (mind_ == Mind::fright && in_mind_s_ > 0.3)) foot = 0.0;
     if (mind_ == Mind::leave && in_mind_s_ > 0.25) foot = felt_n_ < -0.5 ? 0.8 : 0.0;
     d.pedal = std::clamp(foot, 0.0, 1.0);
@@ -230,9 +257,10 @@ class Novice final : public Hand {
   Random r_;
   Vec3 p_, q_;
   // the person
-  double base_n_, uneven_, uneven_s_, clock_, grip_, squeeze_, damping_, eagerness_, advance_most_mm_s_, numb_s_, shake_mm_, shake_hz_, sway_mm_,
-      sway_s_;
-  double tilt_to_, tilt_, tilt_wander_, tilt_s_, along_handle_, misjudges_mm_, reaction_s_, push_on_mm_, freeze_s_;
+  double base_n_, uneven_, uneven_s_, clock_, grip_, squeeze_, damping_, eagerness_,
+      advance_most_mm_s_, numb_s_, shake_mm_, shake_hz_, sway_mm_, sway_s_;
+  double tilt_to_, tilt_, tilt_wander_, tilt_s_, along_handle_, misjudges_mm_, reaction_s_,
+      push_on_mm_, freeze_s_;
   double foot_, foot_wobble_, late_foot_s_, timid_near_mm_, timid_, gives_up_early_s_, stray_mm_;
   AtLoss at_loss_;
   bool heeds_loss_;
@@ -241,9 +269,11 @@ class Novice final : public Hand {
   // the moment
   Mind mind_ = Mind::press;
   Vec3 place_, drawn_to_;
-  double want_mm_ = -3.0, felt_n_ = 0.0, usual_n_ = 0.0, in_mind_s_ = 0.0, mind_for_s_ = 0.0, mind_from_mm_ = 0.0, moody_ = 0.0, level_ = 1.0,
-         back_mm_ = 0.0, slid_s_ = 0.0, soft_ = 1.0;
-  double back_s_ = 0.0, scrape_mm_ = 0.0, scrape_hz_ = 1.0, gone_s_ = 0.0, floor_mm_ = -3.0, shake_phase_ = 0.0;
+  double want_mm_ = -3.0, felt_n_ = 0.0, usual_n_ = 0.0, in_mind_s_ = 0.0, mind_for_s_ = 0.0,
+         mind_from_mm_ = 0.0, moody_ = 0.0, level_ = 1.0, back_mm_ = 0.0, slid_s_ = 0.0,
+         soft_ = 1.0;
+  double back_s_ = 0.0, scrape_mm_ = 0.0, scrape_hz_ = 1.0, gone_s_ = 0.0, floor_mm_ = -3.0,
+         shake_phase_ = 0.0;
   double sway_[3] = {}, tilts_[2] = {};
   int slips_ = 0;
   bool touched_ = false;
@@ -251,6 +281,8 @@ class Novice final : public Hand {
 
 }  // namespace
 
-std::unique_ptr<Hand> make_novice(const Task& task, Random random) { return std::make_unique<Novice>(task, random); }
+std::unique_ptr<Hand> make_novice(const Task& task, Random random) {
+  return std::make_unique<Novice>(task, random);
+}
 
 }  // namespace cavum::hands

@@ -1,7 +1,9 @@
-// A practised hand that never leans on the tooth: it goes in and out, a short press and a short lift, each press a ballistic movement to where the
-// floor was the last time plus what the force needs, corrected by touch. It knows from peck to peck how much lead gives the force it likes. Some move
-// their pecks about the floor, some pulse the pedal (with the pecks or in a rhythm of their own), some go lighter and slower near the pulp, most lift
-// away once a peck meets nothing, some probe on with lighter pecks round the opening, some notice nothing.
+// A practised hand that never leans on the tooth: it goes in and out, a short press and a short
+// lift, each press a ballistic movement to where the floor was the last time plus what the force
+// needs, corrected by touch. It knows from peck to peck how much lead gives the force it likes.
+// Some move their pecks about the floor, some pulse the pedal (with the pecks or in a rhythm of
+// their own), some go lighter and slower near the pulp, most lift away once a peck meets nothing,
+// some probe on with lighter pecks round the opening, some notice nothing.
 #include <algorithm>
 #include <cmath>
 
@@ -14,12 +16,15 @@ namespace {
 class Pecker final : public Hand {
  public:
   Pecker(const Task& task, Random random) : task_(task), r_(random) {
-    across_ = normalized(cross(task.into, std::abs(task.into.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
+    across_ =
+        normalized(cross(task.into, std::abs(task.into.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
     along_ = cross(task.into, across_);
     rested_ = r_.uniform() < 0.65;
     stiffness_ = rested_ ? r_.uniform(1.0, 2.6) : r_.uniform(0.5, 1.0);
     damping_ = r_.uniform(0.03, 0.1);
-    force_n_ = std::clamp((0.8 + 0.22 * r_.normal()) * std::clamp(0.8 + 0.12 * task.depth_mm, 0.9, 1.3), 0.35, 1.5);  // much to do: a firmer hand
+    force_n_ =
+        std::clamp((0.8 + 0.22 * r_.normal()) * std::clamp(0.8 + 0.12 * task.depth_mm, 0.9, 1.3),
+                   0.35, 1.5);  // much to do: a firmer hand
     spread_ = r_.uniform(0.05, 0.25);
     press_s_ = r_.uniform() < 0.25 ? r_.uniform(0.5, 1.6) : r_.uniform(0.2, 0.42);
     up_s_ = r_.uniform(0.05, 0.3);
@@ -35,13 +40,18 @@ class Pecker final : public Hand {
     tilt_ = r_.uniform(0.0, 18.0) / 360.0 * two_pi;
     tilt_way_ = r_.uniform(0.0, two_pi);
     tilt_wander_ = r_.uniform(0.5, 3.0) / 360.0 * two_pi;
-    hop_mm_ = r_.uniform() < 0.4 ? 0.0 : r_.uniform(0.1, std::max(0.15, 0.5 * task.width_mm - 0.4 * task.head_radius_mm));
+    hop_mm_ =
+        r_.uniform() < 0.4
+            ? 0.0
+            : r_.uniform(0.1, std::max(0.15, 0.5 * task.width_mm - 0.4 * task.head_radius_mm));
     hop_each_ = 2 + static_cast<int>(r_.below(6));
     look_each_ = 5 + static_cast<int>(r_.below(25));
     look_s_ = r_.uniform(0.4, 2.0);
     look_mm_ = r_.uniform(0.8, 5.0);
     const double habit = r_.uniform();
-    pedal_habit_ = habit < 0.45 ? Pedal::held : habit < 0.75 ? Pedal::with_the_peck : Pedal::own_rhythm;
+    pedal_habit_ = habit < 0.45   ? Pedal::held
+                   : habit < 0.75 ? Pedal::with_the_peck
+                                  : Pedal::own_rhythm;
     pedal_on_s_ = r_.uniform(0.4, 2.0);
     pedal_off_s_ = r_.uniform(0.2, 0.6);
     pedal_full_ = r_.uniform() < 0.7 ? 1.0 : r_.uniform(0.6, 1.0);
@@ -88,7 +98,9 @@ class Pecker final : public Hand {
   }
   [[nodiscard]] std::string style() const override {
     if (press_s_ > 0.45) return "pecking, long";
-    return pedal_habit_ == Pedal::held ? "pecking" : pedal_habit_ == Pedal::with_the_peck ? "pecking, pedal with it" : "pecking, pedal pulsed";
+    return pedal_habit_ == Pedal::held            ? "pecking"
+           : pedal_habit_ == Pedal::with_the_peck ? "pecking, pedal with it"
+                                                  : "pecking, pedal pulsed";
   }
 
  private:
@@ -106,7 +118,9 @@ class Pecker final : public Hand {
     return s * s * s * (10.0 + s * (-15.0 + 6.0 * s));
   }
   [[nodiscard]] double depth(Vec3 p) const { return dot(p - task_.entry_mm, task_.into); }
-  [[nodiscard]] Side lateral(Vec3 p) const { return {dot(p - task_.entry_mm, across_), dot(p - task_.entry_mm, along_)}; }
+  [[nodiscard]] Side lateral(Vec3 p) const {
+    return {dot(p - task_.entry_mm, across_), dot(p - task_.entry_mm, along_)};
+  }
   void begin(Phase phase, double from) {
     doing_ = phase;
     in_phase_s_ = 0.0;
@@ -144,11 +158,13 @@ class Pecker final : public Hand {
     ++pecks_;
   }
   void down() {
-    at_mm_ = from_mm_ + (floor_mm_ + lead_mm_ - from_mm_) * minimum_jerk(in_phase_s_ / this_move_s_);
+    at_mm_ =
+        from_mm_ + (floor_mm_ + lead_mm_ - from_mm_) * minimum_jerk(in_phase_s_ / this_move_s_);
     if (in_phase_s_ >= this_move_s_ || felt_n_ > 1.1 * wish_n_) begin(Phase::press, at_mm_);
   }
   void press(double seen, Side beside) {
-    if (std::hypot(beside.a, beside.b) > 0.5 * task_.width_mm + 0.35 && slips_ < 6) {  // slid off: back to the place, lighter
+    if (std::hypot(beside.a, beside.b) > 0.5 * task_.width_mm + 0.35 &&
+        slips_ < 6) {  // slid off: back to the place, lighter
       ++slips_;
       eager_ *= 0.8;
       lead_mm_ *= 0.7;
@@ -159,12 +175,15 @@ class Pecker final : public Hand {
     }
     at_mm_ += std::clamp(correct_mm_s_n_ * (wish_n_ - felt_n_), -4.0, 2.5) * tick_s;
     most_this_n_ = std::max(most_this_n_, felt_n_);
-    if (seen > (task_.into_the_chamber ? task_.depth_mm + 1.0 : task_.depth_mm)) return begin(Phase::leave, at_mm_);
+    if (seen > (task_.into_the_chamber ? task_.depth_mm + 1.0 : task_.depth_mm))
+      return begin(Phase::leave, at_mm_);
     if (in_phase_s_ < this_press_s_) return;
     if (felt_n_ > 0.25 * wish_n_) {
       usual_n_ = usual_n_ == 0.0 ? felt_n_ : usual_n_ + 0.25 * (felt_n_ - usual_n_);
-      lead_mm_ = std::clamp(0.5 * (lead_mm_ + at_mm_ - seen) + 0.4 * (wish_n_ - felt_n_) / stiffness_, 0.05, 3.0);
-      eager_ = seen < floor_mm_ + 0.015 ? std::min(1.7, eager_ + impatience_) : std::max(1.0, eager_ - 0.5 * impatience_);
+      lead_mm_ = std::clamp(
+          0.5 * (lead_mm_ + at_mm_ - seen) + 0.4 * (wish_n_ - felt_n_) / stiffness_, 0.05, 3.0);
+      eager_ = seen < floor_mm_ + 0.015 ? std::min(1.7, eager_ + impatience_)
+                                        : std::max(1.0, eager_ - 0.5 * impatience_);
       floor_mm_ = seen;
     } else {
       floor_mm_ = std::max(floor_mm_, std::min(seen, floor_mm_ + 0.3));
@@ -176,7 +195,8 @@ class Pecker final : public Hand {
     begin(Phase::up, at_mm_);
   }
   void up() {
-    at_mm_ = from_mm_ + (floor_mm_ - this_lift_mm_ - from_mm_) * minimum_jerk(in_phase_s_ / this_move_s_);
+    at_mm_ = from_mm_ +
+             (floor_mm_ - this_lift_mm_ - from_mm_) * minimum_jerk(in_phase_s_ / this_move_s_);
     if (in_phase_s_ >= this_move_s_) begin(Phase::wait, at_mm_);
   }
   void wait() {
@@ -185,15 +205,20 @@ class Pecker final : public Hand {
     new_peck();
     begin(Phase::down, at_mm_);
   }
-  /// The hand is where the floor was, and further, and meets nothing: after a reaction time he knows.
+  /// The hand is where the floor was, and further, and meets nothing: after a reaction time he
+  /// knows.
   void feel_for_loss(double hand, double seen) {
     const double usual = usual_n_ > 0.0 ? usual_n_ : force_n_;
     if (felt_n_ > 0.45 * std::min(usual, wish_n_)) gone_s_ = 0.0;
-    if (hand > floor_mm_ + 0.12 && floor_mm_ > 0.25 && felt_n_ < 0.3 * std::min(usual, wish_n_)) gone_s_ += tick_s;
+    if (hand > floor_mm_ + 0.12 && floor_mm_ > 0.25 && felt_n_ < 0.3 * std::min(usual, wish_n_))
+      gone_s_ += tick_s;
     // or it gave way under him, by more than cutting explains
     if (doing_ != Phase::press || felt_n_ < 0.2 * wish_n_) follow_mm_ = seen;
     follow_mm_ += (seen - follow_mm_) * tick_s / 0.12;
-    gave_s_ = gave_s_ > 0.0 || (seen - follow_mm_ > give_mm_ && seen > floor_mm_ + give_mm_ && floor_mm_ > 0.25) ? gave_s_ + tick_s : 0.0;
+    gave_s_ = gave_s_ > 0.0 || (seen - follow_mm_ > give_mm_ && seen > floor_mm_ + give_mm_ &&
+                                floor_mm_ > 0.25)
+                  ? gave_s_ + tick_s
+                  : 0.0;
     if (std::max(gone_s_, gave_s_) < reaction_s_ || !heeds_loss_ || opened_) return;
     opened_ = true;
     floor_mm_ = std::max(floor_mm_, std::min(seen, floor_mm_ + 0.2));
@@ -206,10 +231,12 @@ class Pecker final : public Hand {
   }
 
   Doing answer(const Felt& f, double hand) {
-    // trembling: two neighbouring tones that beat, a pair for each direction; wandering: a random walk that is drawn back
+    // trembling: two neighbouring tones that beat, a pair for each direction; wandering: a random
+    // walk that is drawn back
     const auto tremble = [&](int i) {
-      return tremor_mm_ * (0.6 * std::sin(two_pi * tremor_hz_ * f.t_s + phase_[i]) +
-                           0.4 * std::sin(two_pi * (tremor_hz_ + 0.7 + 0.2 * i) * f.t_s + phase_[i + 3]));
+      return tremor_mm_ *
+             (0.6 * std::sin(two_pi * tremor_hz_ * f.t_s + phase_[i]) +
+              0.4 * std::sin(two_pi * (tremor_hz_ + 0.7 + 0.2 * i) * f.t_s + phase_[i + 3]));
     };
     const double kick = wander_mm_ * std::sqrt(2.0 * tick_s / wander_s_);
     for (auto& w : wander_) w += -w * tick_s / wander_s_ + kick * r_.normal();
@@ -221,10 +248,13 @@ class Pecker final : public Hand {
     Doing d;
     d.stiffness_n_per_mm = stiffness_;
     d.damping_n_s_per_mm = damping_;
-    d.wanted_mm = task_.entry_mm + task_.into * (at_mm_ + tremble(0) + 0.5 * wander_[0]) + across_ * (side_.a + tremble(1) + wander_[1]) +
+    d.wanted_mm = task_.entry_mm + task_.into * (at_mm_ + tremble(0) + 0.5 * wander_[0]) +
+                  across_ * (side_.a + tremble(1) + wander_[1]) +
                   along_ * (side_.b + tremble(2) + wander_[2]);
     const double tilt = tilt_ + lean_;
-    d.handle = normalized(-task_.into * std::cos(tilt) + (across_ * std::cos(tilt_way_) + along_ * std::sin(tilt_way_)) * std::sin(tilt));
+    d.handle =
+        normalized(-task_.into * std::cos(tilt) +
+                   (across_ * std::cos(tilt_way_) + along_ * std::sin(tilt_way_)) * std::sin(tilt));
     d.pedal = pedal(f.t_s);
     d.done = doing_ == Phase::leave && (hand < -2.9 || in_phase_s_ > 6.0);
     return d;
@@ -234,9 +264,14 @@ class Pecker final : public Hand {
     if (doing_ == Phase::leave && felt_n_ < -0.2) return 1.0;
     if (doing_ == Phase::leave) return in_phase_s_ < 0.15 && !opened_ ? full : 0.0;
     if (doing_ == Phase::approach) return full;
-    if (this_up_s_ > 0.35 && (doing_ == Phase::up || doing_ == Phase::wait)) return opened_ ? 0.0 : 0.5 * full;
-    if (pedal_habit_ == Pedal::with_the_peck) return doing_ == Phase::up || (doing_ == Phase::wait && this_up_s_ - in_phase_s_ > 0.1) ? 0.0 : full;
-    if (pedal_habit_ == Pedal::own_rhythm) return std::fmod(t_s, pedal_on_s_ + pedal_off_s_) < pedal_on_s_ ? full : 0.0;
+    if (this_up_s_ > 0.35 && (doing_ == Phase::up || doing_ == Phase::wait))
+      return opened_ ? 0.0 : 0.5 * full;
+    if (pedal_habit_ == Pedal::with_the_peck)
+      return doing_ == Phase::up || (doing_ == Phase::wait && this_up_s_ - in_phase_s_ > 0.1)
+                 ? 0.0
+                 : full;
+    if (pedal_habit_ == Pedal::own_rhythm)
+      return std::fmod(t_s, pedal_on_s_ + pedal_off_s_) < pedal_on_s_ ? full : 0.0;
     return full;
   }
 
@@ -245,17 +280,21 @@ class Pecker final : public Hand {
   Vec3 across_, along_;
   // the person
   bool rested_, heeds_loss_;
-  double stiffness_, damping_, force_n_, spread_, press_s_, up_s_, move_s_, lift_mm_, correct_mm_s_n_, reaction_s_, felt_rate_;
-  double tremor_mm_, tremor_hz_, wander_mm_, wander_s_, tilt_, tilt_way_, tilt_wander_, hop_mm_, look_s_, look_mm_;
-  double pedal_on_s_, pedal_off_s_, pedal_full_, careful_mm_, careful_force_, careful_pedal_, impatience_, give_mm_, approach_mm_s_;
+  double stiffness_, damping_, force_n_, spread_, press_s_, up_s_, move_s_, lift_mm_,
+      correct_mm_s_n_, reaction_s_, felt_rate_;
+  double tremor_mm_, tremor_hz_, wander_mm_, wander_s_, tilt_, tilt_way_, tilt_wander_, hop_mm_,
+      look_s_, look_mm_;
+  double pedal_on_s_, pedal_off_s_, pedal_full_, careful_mm_, careful_force_, careful_pedal_,
+      impatience_, give_mm_, approach_mm_s_;
   int hop_each_, look_each_, probes_;
   Pedal pedal_habit_;
   double phase_[6] = {};
   // the moment
   Phase doing_ = Phase::approach;
-  double in_phase_s_ = 0.0, from_mm_ = 0.0, at_mm_ = 0.0, floor_mm_ = 0.0, lead_mm_, felt_n_ = 0.0, usual_n_ = 0.0, most_this_n_ = 0.0, wish_n_ = 0.5;
-  double this_press_s_ = 0.3, this_up_s_ = 0.1, this_lift_mm_ = 0.5, this_move_s_ = 0.1, gone_s_ = 0.0, gave_s_ = 0.0, follow_mm_ = 0.0, eager_ = 1.0,
-         lean_ = 0.0;
+  double in_phase_s_ = 0.0, from_mm_ = 0.0, at_mm_ = 0.0, floor_mm_ = 0.0, lead_mm_, felt_n_ = 0.0,
+         usual_n_ = 0.0, most_this_n_ = 0.0, wish_n_ = 0.5;
+  double this_press_s_ = 0.3, this_up_s_ = 0.1, this_lift_mm_ = 0.5, this_move_s_ = 0.1,
+         gone_s_ = 0.0, gave_s_ = 0.0, follow_mm_ = 0.0, eager_ = 1.0, lean_ = 0.0;
   double wander_[3] = {};
   Side side_, side_goal_;
   int pecks_ = 0, slips_ = 0;
@@ -264,6 +303,8 @@ class Pecker final : public Hand {
 
 }  // namespace
 
-std::unique_ptr<Hand> make_pecker(const Task& task, Random random) { return std::make_unique<Pecker>(task, random); }
+std::unique_ptr<Hand> make_pecker(const Task& task, Random random) {
+  return std::make_unique<Pecker>(task, random);
+}
 
 }  // namespace cavum::hands

@@ -1,4 +1,5 @@
-// Goes straight in with a steady force, on the pedal all the way, and lets go a reaction time after nothing resists any more.
+// Goes straight in with a steady force, on the pedal all the way, and lets go a reaction time after
+// nothing resists any more.
 #include <algorithm>
 
 #include "tests/hands/hand.h"
@@ -31,11 +32,14 @@ class Plunger final : public Hand {
     }
     most_n_ = std::max(most_n_ * 0.9999, felt_n_);
     gone_s_ = depth > 0.5 && felt_n_ < 0.2 * most_n_ ? gone_s_ + 0.001 : 0.0;
-    if (depth > task_.depth_mm || (f.t_s > 1.0 && gone_s_ > reaction_s_) || f.t_s > 50.0) leaving_ = true, left_mm_ = f.hand_mm;
-    // down to the surface at 4 mm/s; from the first touch on ahead of the tip by as much as the force needs
+    if (depth > task_.depth_mm || (f.t_s > 1.0 && gone_s_ > reaction_s_) || f.t_s > 50.0)
+      leaving_ = true, left_mm_ = f.hand_mm;
+    // down to the surface at 4 mm/s; from the first touch on ahead of the tip by as much as the
+    // force needs
     const double lead_mm = wanted_mm_ - dot(f.hand_mm - task_.entry_mm, task_.into);
     if (length(f.force_n) > 0.1) touched_ = true;
-    wanted_mm_ += touched_ ? 0.005 * (force_n_ / stiffness_ - lead_mm) : 0.004;  // the arm follows within a fifth of a second
+    wanted_mm_ += touched_ ? 0.005 * (force_n_ / stiffness_ - lead_mm)
+                           : 0.004;  // the arm follows within a fifth of a second
     d.wanted_mm = task_.entry_mm + task_.into * wanted_mm_;
     return d;
   }
@@ -53,6 +57,8 @@ class Plunger final : public Hand {
 
 }  // namespace
 
-std::unique_ptr<Hand> make_plunger(const Task& task, Random random) { return std::make_unique<Plunger>(task, random); }
+std::unique_ptr<Hand> make_plunger(const Task& task, Random random) {
+  return std::make_unique<Plunger>(task, random);
+}
 
 }  // namespace cavum::hands

@@ -1,5 +1,6 @@
-// Scenario files with mistakes, each with the place, kind and values of all its problems beside it. After they were changed on purpose,
-// CAVUM_WRITE_GOLDEN=1 writes them anew: read the difference before it is committed.
+// Scenario files with mistakes, each with the place, kind and values of all its problems beside it.
+// After they were changed on purpose, CAVUM_WRITE_GOLDEN=1 writes them anew: read the difference
+// before it is committed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,10 +20,13 @@ namespace fs = std::filesystem;
 const std::string k_source(CAVUM_SOURCE_DIR);
 const std::string k_folder = k_source + "/tests/scenarios/broken";
 
-/// The names and figures of a message, in their order: what stays when its sentence is written anew.
+/// The names and figures of a message, in their order: what stays when its sentence is written
+/// anew.
 std::string values_of(const Message& m) {
   std::string all;
-  const auto add = [&all](const std::string& value) { all += (all.empty() || value.empty() ? "" : ", ") + value; };
+  const auto add = [&all](const std::string& value) {
+    all += (all.empty() || value.empty() ? "" : ", ") + value;
+  };
   for (const Value& v : m.values()) {
     if (const auto* inner = std::get_if<Message>(&v))
       add(values_of(*inner));
@@ -34,18 +38,23 @@ std::string values_of(const Message& m) {
   return all;
 }
 
-/// Each problem of a file on a line: place, kind, what it names, and what its remedy names; of what is no TOML and no condition, whose reason is
-/// the library's, place and kind alone. The block is given by hand, so that only a file without it goes looking.
+/// Each problem of a file on a line: place, kind, what it names, and what its remedy names; of what
+/// is no TOML and no condition, whose reason is the library's, place and kind alone. The block is
+/// given by hand, so that only a file without it goes looking.
 std::string golden_of(const std::string& name) {
   const std::string file = name + ".toml", text = read_text_file(k_folder + "/" + file);
   fs::current_path(k_folder);  // a zone's STL lies beside its file
   const bool own_tooth = text.find("\"block.cvt\"") != std::string::npos;
   std::string all;
-  for (const auto& p : check_whole(text, file, own_tooth ? k_source + "/tests/replay/block.cvt" : "").problems) {
-    EXPECT_TRUE(p.where.line > 0 && p.where.column > 0 && !p.what.empty() && !p.what_to_do.empty()) << english_text(p.message());
+  for (const auto& p :
+       check_whole(text, file, own_tooth ? k_source + "/tests/replay/block.cvt" : "").problems) {
+    EXPECT_TRUE(p.where.line > 0 && p.where.column > 0 && !p.what.empty() && !p.what_to_do.empty())
+        << english_text(p.message());
     const bool plain = p.mistake == Mistake::not_toml || p.mistake == Mistake::condition;
-    const std::string values = plain ? "" : values_of(p.what), remedy = plain ? "" : values_of(p.what_to_do);
-    all += std::to_string(p.where.line) + ":" + std::to_string(p.where.column) + (p.warning ? " warning " : " ") + std::string(name_in(p.mistake)) +
+    const std::string values = plain ? "" : values_of(p.what),
+                      remedy = plain ? "" : values_of(p.what_to_do);
+    all += std::to_string(p.where.line) + ":" + std::to_string(p.where.column) +
+           (p.warning ? " warning " : " ") + std::string(name_in(p.mistake)) +
            (values.empty() ? "" : ": " + values) + (remedy.empty() ? "" : "; " + remedy) + "\n";
   }
   return all;
@@ -60,7 +69,9 @@ TEST_P(Broken, HasTheProblemsOfItsGoldenFile) {
   EXPECT_EQ(found, read_text_file(golden));
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenarios, Broken, ::testing::ValuesIn(testing_basics::toml_names(k_folder)), [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(Scenarios, Broken,
+                         ::testing::ValuesIn(testing_basics::toml_names(k_folder)),
+                         [](const auto& test) { return test.param; });
 
 TEST(BrokenScenarios, AreAtLeastFortyAndNoGoldenFileIsLeftOver) {
   EXPECT_GE(testing_basics::toml_names(k_folder).size(), 40u);

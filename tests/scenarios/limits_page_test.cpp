@@ -41,35 +41,36 @@ std::map<std::string, std::uint64_t> rows() {
 
 TEST(LimitsPage, SaysTheNumbersOfTheCode) {
   const std::map<std::string, std::uint64_t> said = rows();
-  const std::map<std::string, std::uint64_t> meant{{"k_largest_file", k_largest_file},
-                                                   {"k_largest_text", k_largest_text},
-                                                   {"JsonLimits::bytes", JsonLimits{}.bytes},
-                                                   {"JsonLimits::values", JsonLimits{}.values},
-                                                   {"JsonLimits::depth", JsonLimits{}.depth},
-                                                   {"k_toml_bytes", k_toml_bytes},
-                                                   {"k_toml_values", k_toml_values},
-                                                   {"k_toml_depth", k_toml_depth},
-                                                   {"k_toml_parts", k_toml_parts},
-                                                   {"k_toml_named", k_toml_named},
-                                                   {"CsvForm::most_rows", CsvForm{}.most_rows},
-                                                   {"CsvForm::most_fields", CsvForm{}.most_fields},
-                                                   {"k_max_items", k_max_items},
-                                                   {"k_max_tray", k_max_tray},
-                                                   {"k_max_points", k_max_points},
-                                                   {"k_max_zone_leaves", k_max_zone_leaves},
-                                                   {"k_max_body_leaves", k_max_body_leaves},
-                                                   {"k_max_zone_steps", k_max_zone_steps},
-                                                   {"k_max_removed_leaves", k_max_removed_leaves},
-                                                   {"k_max_lattice_leaves", k_max_lattice_leaves},
-                                                   {"k_max_row_leaves", k_max_row_leaves},
-                                                   {"k_max_placed", k_max_placed},
-                                                   {"k_longest_landmark_name", k_longest_landmark_name},
-                                                   {"k_max_near_triangles", k_max_near_triangles},
-                                                   {"k_max_scan_triangles", k_max_scan_triangles},
-                                                   {"k_max_scan_points", k_max_scan_points},
-                                                   {"k_largest_history", CheckHistory::k_largest_history},
-                                                   {"most_voxels", most_voxels(0)},
-                                                   {"most_gray_voxels", most_gray_voxels(0)}};
+  const std::map<std::string, std::uint64_t> meant{
+      {"k_largest_file", k_largest_file},
+      {"k_largest_text", k_largest_text},
+      {"JsonLimits::bytes", JsonLimits{}.bytes},
+      {"JsonLimits::values", JsonLimits{}.values},
+      {"JsonLimits::depth", JsonLimits{}.depth},
+      {"k_toml_bytes", k_toml_bytes},
+      {"k_toml_values", k_toml_values},
+      {"k_toml_depth", k_toml_depth},
+      {"k_toml_parts", k_toml_parts},
+      {"k_toml_named", k_toml_named},
+      {"CsvForm::most_rows", CsvForm{}.most_rows},
+      {"CsvForm::most_fields", CsvForm{}.most_fields},
+      {"k_max_items", k_max_items},
+      {"k_max_tray", k_max_tray},
+      {"k_max_points", k_max_points},
+      {"k_max_zone_leaves", k_max_zone_leaves},
+      {"k_max_body_leaves", k_max_body_leaves},
+      {"k_max_zone_steps", k_max_zone_steps},
+      {"k_max_removed_leaves", k_max_removed_leaves},
+      {"k_max_lattice_leaves", k_max_lattice_leaves},
+      {"k_max_row_leaves", k_max_row_leaves},
+      {"k_max_placed", k_max_placed},
+      {"k_longest_landmark_name", k_longest_landmark_name},
+      {"k_max_near_triangles", k_max_near_triangles},
+      {"k_max_scan_triangles", k_max_scan_triangles},
+      {"k_max_scan_points", k_max_scan_points},
+      {"k_largest_history", CheckHistory::k_largest_history},
+      {"most_voxels", most_voxels(0)},
+      {"most_gray_voxels", most_gray_voxels(0)}};
   for (const auto& [name, number] : meant) {
     ASSERT_TRUE(said.contains(name)) << name;
     EXPECT_EQ(said.at(name), number) << name;
@@ -79,12 +80,14 @@ TEST(LimitsPage, SaysTheNumbersOfTheCode) {
 TEST(MeshLimits, TooManyTrianglesAtOneCornerAreRefusedWithTheLimitNamed) {
   std::string stl = "solid fan\n";
   const auto facet = [&](int a, int b, int z) {
-    stl += "facet normal 0 0 1\nouter loop\nvertex 0 0 " + std::to_string(z) + "\nvertex " + std::to_string(a) + " " + std::to_string(a % 7) +
-           " 0\nvertex " + std::to_string(b) + " " + std::to_string(b % 7) + " 0\nendloop\nendfacet\n";
+    stl += "facet normal 0 0 1\nouter loop\nvertex 0 0 " + std::to_string(z) + "\nvertex " +
+           std::to_string(a) + " " + std::to_string(a % 7) + " 0\nvertex " + std::to_string(b) +
+           " " + std::to_string(b % 7) + " 0\nendloop\nendfacet\n";
   };
   for (int i = 0; i < 2001; ++i) facet(i, i + 1, 5);
   stl += "endsolid fan\n";
-  const auto refused = testing_basics::thrown_by([&] { static_cast<void>(read_closed_stl(Bytes(stl.begin(), stl.end()), "fan.stl")); });
+  const auto refused = testing_basics::thrown_by(
+      [&] { static_cast<void>(read_closed_stl(Bytes(stl.begin(), stl.end()), "fan.stl")); });
   EXPECT_TRUE(testing_basics::tells(refused, 2000));
 }
 

@@ -8,15 +8,20 @@
 
 namespace cavum::testing {
 
-/// An upright round tooth of dentin: radius `radius_mm`, its flat top at z = 0, its lower end at z = `low_mm`; air around it.
+/// An upright round tooth of dentin: radius `radius_mm`, its flat top at z = 0, its lower end at z
+/// = `low_mm`; air around it.
 inline Tooth round_tooth(double radius_mm, double low_mm, double leaf_mm) {
   const double half = radius_mm + 0.5;
-  const auto outside = [radius_mm](Vec3 p) { return std::max(std::sqrt(p.x * p.x + p.y * p.y) - radius_mm, p.z); };
+  const auto outside = [radius_mm](Vec3 p) {
+    return std::max(std::sqrt(p.x * p.x + p.y * p.y) - radius_mm, p.z);
+  };
   return make_tooth(
-      {-half, -half, low_mm}, {half, half, 1.0}, leaf_mm, [outside](Vec3 p) -> std::uint8_t { return outside(p) < 0 ? k_dentin : k_air; }, outside);
+      {-half, -half, low_mm}, {half, half, 1.0}, leaf_mm,
+      [outside](Vec3 p) -> std::uint8_t { return outside(p) < 0 ? k_dentin : k_air; }, outside);
 }
 
-/// Its neck: a circle of that radius, `rise_mm` higher at the mesial and distal ends than in the middle of the other sides (by the square of x).
+/// Its neck: a circle of that radius, `rise_mm` higher at the mesial and distal ends than in the
+/// middle of the other sides (by the square of x).
 inline Landmarks round_landmarks(double radius_mm, double neck_z_mm, double rise_mm = 0) {
   Landmarks l;
   for (int i = 0; i < 360; ++i) {

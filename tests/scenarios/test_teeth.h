@@ -1,4 +1,5 @@
-// Small teeth and scenarios of known geometry, made in memory. Shared by the tests of scenarios and grading.
+// Small teeth and scenarios of known geometry, made in memory. Shared by the tests of scenarios and
+// grading.
 #pragma once
 
 #include <string>
@@ -8,12 +9,18 @@
 
 namespace cavum::testing {
 
-/// A grid with a tissue given by `label(centre_mm)` and the distance by `distance_mm(centre_mm)` (to solid tissue).
+/// A grid with a tissue given by `label(centre_mm)` and the distance by `distance_mm(centre_mm)`
+/// (to solid tissue).
 template <class Label, class Distance>
-Tooth make_tooth(Vec3 low_mm, Vec3 high_mm, double leaf_mm, const Label& label, const Distance& distance_mm) {
+Tooth make_tooth(Vec3 low_mm, Vec3 high_mm, double leaf_mm, const Label& label,
+                 const Distance& distance_mm) {
   TissueGrid grid;
-  const auto leaves = [&](double length) { return static_cast<std::int32_t>(length / leaf_mm + 0.5); };
-  grid.allocate({leaves(high_mm.x - low_mm.x), leaves(high_mm.y - low_mm.y), leaves(high_mm.z - low_mm.z)}, leaf_mm, low_mm);
+  const auto leaves = [&](double length) {
+    return static_cast<std::int32_t>(length / leaf_mm + 0.5);
+  };
+  grid.allocate(
+      {leaves(high_mm.x - low_mm.x), leaves(high_mm.y - low_mm.y), leaves(high_mm.z - low_mm.z)},
+      leaf_mm, low_mm);
   for (int z = 0; z < grid.size.z; ++z)
     for (int y = 0; y < grid.size.y; ++y)
       for (int x = 0; x < grid.size.x; ++x) {
@@ -29,17 +36,19 @@ Tooth make_tooth(Vec3 low_mm, Vec3 high_mm, double leaf_mm, const Label& label, 
   return tooth;
 }
 
-/// A block of dentin, top at z = 0, `half_mm` wide to every side, `depth_mm` deep, with a millimetre of air above.
+/// A block of dentin, top at z = 0, `half_mm` wide to every side, `depth_mm` deep, with a
+/// millimetre of air above.
 inline Tooth dentin_block(double half_mm, double depth_mm, double leaf_mm) {
   return make_tooth(
-      {-half_mm, -half_mm, -depth_mm}, {half_mm, half_mm, 1.0}, leaf_mm, [](Vec3 p) { return p.z < 0 ? k_dentin : k_air; },
-      [](Vec3 p) { return p.z; });
+      {-half_mm, -half_mm, -depth_mm}, {half_mm, half_mm, 1.0}, leaf_mm,
+      [](Vec3 p) { return p.z < 0 ? k_dentin : k_air; }, [](Vec3 p) { return p.z; });
 }
 
-/// A block with a flat pulp chamber (box 3 x 2 x 1.5 mm, its floor at z = -4.5), two horns on its roof, two canals below it, and
-/// periodontium under z = -6.5.
+/// A block with a flat pulp chamber (box 3 x 2 x 1.5 mm, its floor at z = -4.5), two horns on its
+/// roof, two canals below it, and periodontium under z = -6.5.
 inline Tooth chambered_block(double leaf_mm) {
-  // boxes of pulp: chamber, horns, canals; the latter reach into the chamber, so that no surface lies between them
+  // boxes of pulp: chamber, horns, canals; the latter reach into the chamber, so that no surface
+  // lies between them
   constexpr Vec3 k_pulp_boxes[][2]{{{-1.5, -1, -4.5}, {1.5, 1, -3}},
                                    {{-1.4, -0.3, -3.7}, {-0.9, 0.3, -2.5}},
                                    {{0.9, -0.3, -3.7}, {1.4, 0.3, -2.5}},
@@ -48,9 +57,13 @@ inline Tooth chambered_block(double leaf_mm) {
   const auto into_pulp = [k_pulp_boxes](Vec3 p) {  // how deep in it, negative outside
     double deepest = -9;
     for (const auto& [low, high] : k_pulp_boxes) {
-      const Vec3 out{std::max(low.x - p.x, p.x - high.x), std::max(low.y - p.y, p.y - high.y), std::max(low.z - p.z, p.z - high.z)};
+      const Vec3 out{std::max(low.x - p.x, p.x - high.x), std::max(low.y - p.y, p.y - high.y),
+                     std::max(low.z - p.z, p.z - high.z)};
       const double most = std::max({out.x, out.y, out.z});
-      deepest = std::max(deepest, most < 0 ? -most : -length(Vec3{std::max(out.x, 0.0), std::max(out.y, 0.0), std::max(out.z, 0.0)}));
+      deepest =
+          std::max(deepest, most < 0 ? -most
+                                     : -length(Vec3{std::max(out.x, 0.0), std::max(out.y, 0.0),
+                                                    std::max(out.z, 0.0)}));
     }
     return deepest;
   };

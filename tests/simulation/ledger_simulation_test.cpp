@@ -1,5 +1,6 @@
-// Days at a school that seeds draw (school_day.h): nothing that was acknowledged is lost, every wrong clock is named. CAVUM_SIMULATION_SEEDS says how
-// many (10,000 take a quarter of an hour), CAVUM_TEST_SEED repeats a run, CAVUM_SIMULATION_DAY one day.
+// Days at a school that seeds draw (school_day.h): nothing that was acknowledged is lost, every
+// wrong clock is named. CAVUM_SIMULATION_SEEDS says how many (10,000 take a quarter of an hour),
+// CAVUM_TEST_SEED repeats a run, CAVUM_SIMULATION_DAY one day.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -26,10 +27,12 @@ std::uint64_t number_in(const char* name, std::uint64_t otherwise) {
   return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-/// Days on which something was wrong once, each kept: a disk that is full while the key is replaced, twice, or while a backup is restored; a
-/// recording erased during a backup, twice, or while somebody verifies; a second backup cut off before it says what it holds.
-constexpr std::uint64_t k_kept[] = {2070568136836150368U, 3746302825775987233U, 15782216399703653366U, 17575763446533936184U,
-                                    8878052474977038694U, 145598872595458111U,  14357867830483894556U};
+/// Days on which something was wrong once, each kept: a disk that is full while the key is
+/// replaced, twice, or while a backup is restored; a recording erased during a backup, twice, or
+/// while somebody verifies; a second backup cut off before it says what it holds.
+constexpr std::uint64_t k_kept[] = {
+    2070568136836150368U, 3746302825775987233U, 15782216399703653366U, 17575763446533936184U,
+    8878052474977038694U, 145598872595458111U,  14357867830483894556U};
 
 struct Campaign {
   std::map<std::string, std::uint64_t> counts;
@@ -43,8 +46,9 @@ void live_through(const std::vector<std::uint64_t>& seeds, Campaign& out) {
     static_cast<void>(warm.run());
   }
   const testing_basics::Folder folder;
-  // Processes that were killed leave their memory behind, SQLite's list of open files among it: each day has a real process of its own, so that it is
-  // the same whatever came before it, and a crash ends no more than this one.
+  // Processes that were killed leave their memory behind, SQLite's list of open files among it:
+  // each day has a real process of its own, so that it is the same whatever came before it, and a
+  // crash ends no more than this one.
   for (const std::uint64_t seed : seeds) {
     const std::string told = folder.file("day");
     std::cout.flush();
@@ -77,7 +81,9 @@ void live_through(const std::vector<std::uint64_t>& seeds, Campaign& out) {
       }
       whole = whole || line == "end";
     }
-    if (!whole || status != 0) out.wrong.push_back("CAVUM_SIMULATION_DAY=" + day + ": ended the program, status " + std::to_string(status));
+    if (!whole || status != 0)
+      out.wrong.push_back("CAVUM_SIMULATION_DAY=" + day + ": ended the program, status " +
+                          std::to_string(status));
   }
 }
 
@@ -88,17 +94,21 @@ TEST(LedgerSimulation, NothingAcknowledgedIsLostAndEveryWrongClockIsNamed) {
   } else {
     seeds.assign(std::begin(k_kept), std::end(k_kept));
     Random random(testing_basics::drawn_seed("ledger simulation"));
-    for (auto n = number_in("CAVUM_SIMULATION_SEEDS", std::getenv("CAVUM_DEEP") != nullptr ? 10'000 : 100); n > 0; --n)
+    for (auto n = number_in("CAVUM_SIMULATION_SEEDS",
+                            std::getenv("CAVUM_DEEP") != nullptr ? 10'000 : 100);
+         n > 0; --n)
       seeds.push_back(random.next());
   }
   const auto begun = std::chrono::steady_clock::now();
   Campaign campaign;
   live_through(seeds, campaign);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   std::cout << seeds.size() << " days in " << seconds << " s\n";
   for (const auto& [what, n] : campaign.counts) std::cout << "  " << n << " " << what << "\n";
   std::cout << campaign.wrong.size() << " findings\n";
-  for (std::size_t i = 0; i < std::min<std::size_t>(campaign.wrong.size(), 40); ++i) ADD_FAILURE() << campaign.wrong[i];
+  for (std::size_t i = 0; i < std::min<std::size_t>(campaign.wrong.size(), 40); ++i)
+    ADD_FAILURE() << campaign.wrong[i];
 }
 
 TEST(LedgerSimulation, TheSameSeedGivesTheSameDay) {

@@ -1,5 +1,7 @@
-// The C library's calls for files, locks, clocks, sleep and random numbers, in the place of its own: SQLite, libsodium and the C++ library come here,
-// too. While a process of a World runs, what concerns /sim/ is answered from its disks; everything else, and everybody else, gets the real machine.
+// The C library's calls for files, locks, clocks, sleep and random numbers, in the place of its
+// own: SQLite, libsodium and the C++ library come here, too. While a process of a World runs, what
+// concerns /sim/ is answered from its disks; everything else, and everybody else, gets the real
+// machine.
 #include <dirent.h>
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -33,7 +35,8 @@ F real(const char* name) {
 }
 
 bool ours(const char* path) {
-  return World::here() != nullptr && path != nullptr && (std::strncmp(path, k_root, sizeof k_root - 1) == 0 || std::string(path) + "/" == k_root);
+  return World::here() != nullptr && path != nullptr &&
+         (std::strncmp(path, k_root, sizeof k_root - 1) == 0 || std::string(path) + "/" == k_root);
 }
 OpenFile* ours(int fd) {
   World* w = World::here();
@@ -60,7 +63,8 @@ int new_file(NodePtr node, int flags) {
   return fd;
 }
 
-int open_node(NodePtr node, const NodePtr& folder, const std::string& name, int flags, mode_t mode) {
+int open_node(NodePtr node, const NodePtr& folder, const std::string& name, int flags,
+              mode_t mode) {
   if (node && (flags & O_CREAT) != 0 && (flags & O_EXCL) != 0) return fail(EEXIST);
   if (!node) {
     if ((flags & O_CREAT) == 0 || !folder || !folder->is_folder()) return fail(ENOENT);
@@ -113,7 +117,8 @@ int sync_file(OpenFile& f) {
 
 void tell(const Node& n, struct stat* out) {
   std::memset(out, 0, sizeof *out);
-  // SQLite shares what it knows of a file between all connections of a process; a device of its own keeps these processes apart
+  // SQLite shares what it knows of a file between all connections of a process; a device of its own
+  // keeps these processes apart
   out->st_dev = world().process().device;
   out->st_ino = n.number;
   out->st_mode = n.mode;
@@ -131,11 +136,15 @@ int stat_path(const char* path, struct stat* out) {
   return 0;
 }
 
-bool overlap(const ByteLock& a, const ByteLock& b) { return a.first <= b.last && b.first <= a.last; }
+bool overlap(const ByteLock& a, const ByteLock& b) {
+  return a.first <= b.last && b.first <= a.last;
+}
 
-/// POSIX locks: those of one process never stand in its own way, and a new one takes the place of what it covers.
+/// POSIX locks: those of one process never stand in its own way, and a new one takes the place of
+/// what it covers.
 int lock_bytes(OpenFile& f, int command, struct flock* asked) {
-  ByteLock wanted{f.process, asked->l_type == F_WRLCK, asked->l_start, asked->l_len == 0 ? INT64_MAX : asked->l_start + asked->l_len - 1};
+  ByteLock wanted{f.process, asked->l_type == F_WRLCK, asked->l_start,
+                  asked->l_len == 0 ? INT64_MAX : asked->l_start + asked->l_len - 1};
   auto& locks = f.node->locks;
   if (asked->l_type != F_UNLCK)
     for (const ByteLock& l : locks)
@@ -177,7 +186,8 @@ int rename_path(const char* from, const char* to, bool may_replace) {
   world().pause();
   NodePtr from_folder, to_folder;
   std::string from_name, to_name;
-  const NodePtr node = world().find(from, &from_folder, &from_name), there = world().find(to, &to_folder, &to_name);
+  const NodePtr node = world().find(from, &from_folder, &from_name),
+                there = world().find(to, &to_folder, &to_name);
   if (!node || !to_folder) return fail(ENOENT);
   if (there && !may_replace) return fail(EEXIST);
   if (there && there->is_folder()) return fail(EISDIR);
@@ -251,7 +261,8 @@ Listing* listing_of(DIR* d) {
 DIR* list(int fd) {
   auto* l = new Listing;
   l->fd = fd;
-  for (const auto& [name, node] : ours(fd)->node->names) l->names.emplace_back(name, node->is_folder());
+  for (const auto& [name, node] : ours(fd)->node->names)
+    l->names.emplace_back(name, node->is_folder());
   listings().insert(l);
   return reinterpret_cast<DIR*>(l);
 }
@@ -267,13 +278,17 @@ int close_file(int fd) {
   return 0;
 }
 
-std::int64_t sleep_ns(const timespec* t) { return static_cast<std::int64_t>(t->tv_sec) * 1'000'000'000 + t->tv_nsec; }
+std::int64_t sleep_ns(const timespec* t) {
+  return static_cast<std::int64_t>(t->tv_sec) * 1'000'000'000 + t->tv_nsec;
+}
 void set(timespec* t, std::int64_t ns) {
   t->tv_sec = ns / 1'000'000'000;
   t->tv_nsec = ns % 1'000'000'000;
 }
 
-mode_t mode_of(int flags, va_list& more) { return (flags & O_CREAT) != 0 ? static_cast<mode_t>(va_arg(more, int)) : 0; }
+mode_t mode_of(int flags, va_list& more) {
+  return (flags & O_CREAT) != 0 ? static_cast<mode_t>(va_arg(more, int)) : 0;
+}
 
 }  // namespace
 }  // namespace cavum::simulation
@@ -312,7 +327,8 @@ int openat(int folder, const char* path, int flags, ...) {
   if (const OpenFile* at = ours(folder); at != nullptr && path[0] != '/') {
     world().pause();
     const auto found = at->node->names.find(path);
-    return open_node(found == at->node->names.end() ? nullptr : found->second, at->node, path, flags, mode);
+    return open_node(found == at->node->names.end() ? nullptr : found->second, at->node, path,
+                     flags, mode);
   }
   static const auto f = real<int (*)(int, const char*, int, ...)>("openat");
   return f(folder, path, flags, mode);
@@ -396,7 +412,9 @@ int fallocate(int fd, int mode, off_t at, off_t size) {
   static const auto f = real<int (*)(int, int, off_t, off_t)>("fallocate");
   return f(fd, mode, at, size);
 }
-int fallocate64(int fd, int mode, off64_t at, off64_t size) { return fallocate(fd, mode, at, size); }
+int fallocate64(int fd, int mode, off64_t at, off64_t size) {
+  return fallocate(fd, mode, at, size);
+}
 int fsync(int fd) {
   if (OpenFile* o = ours(fd)) {
     world().pause();
@@ -415,13 +433,17 @@ int stat(const char* path, struct stat* out) noexcept {
   static const auto f = real<int (*)(const char*, struct stat*)>("stat");
   return f(path, out);
 }
-int stat64(const char* path, struct stat64* out) noexcept { return stat(path, reinterpret_cast<struct stat*>(out)); }
+int stat64(const char* path, struct stat64* out) noexcept {
+  return stat(path, reinterpret_cast<struct stat*>(out));
+}
 int lstat(const char* path, struct stat* out) noexcept {
   if (ours(path)) return stat_path(path, out);
   static const auto f = real<int (*)(const char*, struct stat*)>("lstat");
   return f(path, out);
 }
-int lstat64(const char* path, struct stat64* out) noexcept { return lstat(path, reinterpret_cast<struct stat*>(out)); }
+int lstat64(const char* path, struct stat64* out) noexcept {
+  return lstat(path, reinterpret_cast<struct stat*>(out));
+}
 int fstat(int fd, struct stat* out) noexcept {
   if (OpenFile* o = ours(fd)) {
     if (o->random) return fail(EINVAL);
@@ -432,7 +454,9 @@ int fstat(int fd, struct stat* out) noexcept {
   static const auto f = real<int (*)(int, struct stat*)>("fstat");
   return f(fd, out);
 }
-int fstat64(int fd, struct stat64* out) noexcept { return fstat(fd, reinterpret_cast<struct stat*>(out)); }
+int fstat64(int fd, struct stat64* out) noexcept {
+  return fstat(fd, reinterpret_cast<struct stat*>(out));
+}
 int fcntl(int fd, int command, ...) {
   va_list more;
   va_start(more, command);
@@ -512,7 +536,8 @@ int mkdir(const char* path, mode_t mode) noexcept {
 }
 char* mkdtemp(char* path) noexcept {
   if (ours(path)) {
-    for (char* x = path + std::strlen(path) - 6; *x != 0; ++x) *x = static_cast<char>('a' + random_byte() % 26);
+    for (char* x = path + std::strlen(path) - 6; *x != 0; ++x)
+      *x = static_cast<char>('a' + random_byte() % 26);
     return make_folder(path, 0700) == 0 ? path : nullptr;
   }
   static const auto f = real<char* (*)(char*)>("mkdtemp");
@@ -584,7 +609,9 @@ void* mmap(void* at, size_t n, int protection, int flags, int fd, off_t offset) 
   static const auto f = real<void* (*)(void*, size_t, int, int, int, off_t)>("mmap");
   return f(at, n, protection, flags, fd, offset);
 }
-void* mmap64(void* at, size_t n, int protection, int flags, int fd, off64_t offset) noexcept { return mmap(at, n, protection, flags, fd, offset); }
+void* mmap64(void* at, size_t n, int protection, int flags, int fd, off64_t offset) noexcept {
+  return mmap(at, n, protection, flags, fd, offset);
+}
 int munmap(void* at, size_t n) noexcept {
   // SQLite unmaps only what it mapped of a simulated file; who maps real memory has no process here
   if (World::here() != nullptr && n <= 1 << 19) return 0;
@@ -670,12 +697,16 @@ ssize_t getrandom(void* to, size_t n, unsigned flags) {
   }
   return ::syscall(SYS_getrandom, to, n, flags);
 }
-int getentropy(void* to, size_t n) { return getrandom(to, n, 0) == static_cast<ssize_t>(n) ? 0 : -1; }
+int getentropy(void* to, size_t n) {
+  return getrandom(to, n, 0) == static_cast<ssize_t>(n) ? 0 : -1;
+}
 pid_t getpid() noexcept {
-  return World::here() != nullptr ? static_cast<pid_t>(world().process().device) : static_cast<pid_t>(::syscall(SYS_getpid));
+  return World::here() != nullptr ? static_cast<pid_t>(world().process().device)
+                                  : static_cast<pid_t>(::syscall(SYS_getpid));
 }
 char* getenv(const char* name) noexcept {
-  if (World::here() != nullptr && std::strcmp(name, "CAVUM_HOME") == 0) return world().process().home.data();
+  if (World::here() != nullptr && std::strcmp(name, "CAVUM_HOME") == 0)
+    return world().process().home.data();
   static const auto f = real<char* (*)(const char*)>("getenv");
   return f(name);
 }

@@ -40,27 +40,33 @@ grading::ExamContexts& grounds() {
   return shared;
 }
 
-/// Whether one of `findings` names the clock of a station: by the exam's beginning or end, as the station says, or by the tick from which it was
-/// uneven.
+/// Whether one of `findings` names the clock of a station: by the exam's beginning or end, as the
+/// station says, or by the tick from which it was uneven.
 bool names_clock(const records::Findings& findings, const SatExam& exam) {
   using Kind = records::FindingKind;
   return std::any_of(findings.begin(), findings.end(), [&](const records::Finding& f) {
     if (exam.clock == WrongClock::uneven) return f.group() == Kind::clock;
-    return (f.group() == Kind::clock || f.group() == Kind::handed_in_late || f.group() == Kind::ticket_time) &&
-           tells(f.message(), utc_text(exam.clock == WrongClock::behind ? exam.begun_utc_ns : exam.closed_utc_ns));
+    return (f.group() == Kind::clock || f.group() == Kind::handed_in_late ||
+            f.group() == Kind::ticket_time) &&
+           tells(f.message(), utc_text(exam.clock == WrongClock::behind ? exam.begun_utc_ns
+                                                                        : exam.closed_utc_ns));
   });
 }
 
 }  // namespace
 
 const char* name_of(Task task) {
-  static constexpr const char* k_names[k_tasks] = {"issue",  "station",          "file",   "release", "forget", "receipt", "backup", "checkpoint",
-                                                   "cosign", "keep_cosignature", "verify", "cancel",  "begin",  "erase"};
+  static constexpr const char* k_names[k_tasks] = {
+      "issue",   "station", "file",       "release", "forget",
+      "receipt", "backup",  "checkpoint", "cosign",  "keep_cosignature",
+      "verify",  "cancel",  "begin",      "erase"};
   return k_names[static_cast<int>(task)];
 }
 
-SchoolDay::SchoolDay(const Morning& morning, std::uint64_t seed) : morning_(morning), world_(seed, morning.disks, morning.true_ns) {
-  sqlite3_randomness(0, nullptr);  // its random numbers begin anew, out of this world's: days do not depend on those before
+SchoolDay::SchoolDay(const Morning& morning, std::uint64_t seed)
+    : morning_(morning), world_(seed, morning.disks, morning.true_ns) {
+  sqlite3_randomness(0, nullptr);  // its random numbers begin anew, out of this world's: days do
+                                   // not depend on those before
 }
 
 void SchoolDay::wrong(const std::string& what) { wrong_.push_back(what); }
@@ -75,14 +81,19 @@ void SchoolDay::draw() {
     for (auto n = 1 + random.below(4); n > 0; --n) {
       // filing costs more than the others together
       const auto t = random.below(k_tasks + 3);
-      const Task task = t < k_tasks ? static_cast<Task>(t) : t < k_tasks + 2 ? Task::issue : Task::backup;
-      tasks.push_back(task == Task::cosign || (task == Task::file && random.below(3) > 0) ? Task::issue : task);
+      const Task task = t < k_tasks       ? static_cast<Task>(t)
+                        : t < k_tasks + 2 ? Task::issue
+                                          : Task::backup;
+      tasks.push_back(
+          task == Task::cosign || (task == Task::file && random.below(3) > 0) ? Task::issue : task);
     }
     give("office " + std::to_string(i + 1), tasks);
-    people_["office " + std::to_string(i + 1)].pause_ns = random.below(3) == 0 ? random.below(20 * k_s_ns) : random.below(20'000'000);
+    people_["office " + std::to_string(i + 1)].pause_ns =
+        random.below(3) == 0 ? random.below(20 * k_s_ns) : random.below(20'000'000);
   }
   if (random.below(2) == 0) {
-    give("office 9", {Task::checkpoint, Task::keep_cosignature, Task::issue, Task::checkpoint, Task::keep_cosignature});
+    give("office 9", {Task::checkpoint, Task::keep_cosignature, Task::issue, Task::checkpoint,
+                      Task::keep_cosignature});
     give("cosigner", {Task::cosign, Task::cosign, Task::cosign});
     people_["cosigner"].computer = "cosigner";
   }
@@ -108,7 +119,8 @@ void SchoolDay::draw() {
         e.kind = Event::Kind::sync_fails;
         break;
       case 6: {
-        constexpr std::int64_t k_steps[] = {-240 * k_hour_ns, -2 * k_hour_ns, -30 * k_s_ns, 2 * k_hour_ns, 240 * k_hour_ns};
+        constexpr std::int64_t k_steps[] = {-240 * k_hour_ns, -2 * k_hour_ns, -30 * k_s_ns,
+                                            2 * k_hour_ns, 240 * k_hour_ns};
         e.kind = Event::Kind::set_clock;
         e.ns = k_steps[random.below(5)];
         break;
@@ -119,11 +131,15 @@ void SchoolDay::draw() {
     }
     world_.plan(e);
   }
-  if (random.below(4) == 0) replace_key_at_the_end(random.below(3) == 0 ? 0 : 1 + random.below(200));
-  if (random.below(4) == 0) lose_ledger_at_the_end(random.below(2) == 0 ? 0 : 1 + random.below(250));
+  if (random.below(4) == 0)
+    replace_key_at_the_end(random.below(3) == 0 ? 0 : 1 + random.below(200));
+  if (random.below(4) == 0)
+    lose_ledger_at_the_end(random.below(2) == 0 ? 0 : 1 + random.below(250));
 }
 
-void SchoolDay::give(const std::string& person, const std::vector<Task>& tasks) { people_[person] = {"office", tasks, 0, 0}; }
+void SchoolDay::give(const std::string& person, const std::vector<Task>& tasks) {
+  people_[person] = {"office", tasks, 0, 0};
+}
 
 void SchoolDay::start(const std::string& name) {
   world_.start(people_.at(name).computer, name, [this, name] { work(name); });
@@ -133,7 +149,8 @@ void SchoolDay::work(const std::string& name) {
   Person& person = people_.at(name);
   while (person.next < person.tasks.size()) {
     const Task task = person.tasks[person.next++];
-    if (person.pause_ns > 0) world_.sleep(static_cast<std::int64_t>(world_.random().below(person.pause_ns)));
+    if (person.pause_ns > 0)
+      world_.sleep(static_cast<std::int64_t>(world_.random().below(person.pause_ns)));
     try {
       ++counts_[std::string("begun ") + name_of(task)];
       perform(task);
@@ -182,15 +199,19 @@ void SchoolDay::perform(Task task) {
   }
 }
 
-/// Called before anything else can happen: between a function's return and this there is no call to the system.
+/// Called before anything else can happen: between a function's return and this there is no call to
+/// the system.
 void SchoolDay::entered(const records::Ledger& ledger, std::uint64_t seq) {
-  entries_.push_back({seq, ledger.content().entries.at(seq).text, world_.utc_ns(), ledger.receipt(seq)});
+  entries_.push_back(
+      {seq, ledger.content().entries.at(seq).text, world_.utc_ns(), ledger.receipt(seq)});
 }
 
 void SchoolDay::issue_ticket() {
   records::Ledger ledger = open_ledger();
   records::Identities identities(ledger.places().identities());
-  const std::string id = "student-" + std::to_string(world_.random().below(6));  // two people may well enrol one student
+  const std::string id =
+      "student-" +
+      std::to_string(world_.random().below(6));  // two people may well enrol one student
   const std::string pseudonym = identities.enrol(id, "Name", morning_.promise.exam, ledger.key());
   known_[id] = pseudonym;
   try {
@@ -205,16 +226,20 @@ void SchoolDay::issue_ticket() {
 void SchoolDay::enrol_station() {
   records::Ledger ledger = open_ledger();
   const int changes = world_.process().computer->clock_changes;
-  const std::string code = records::invite_station(ledger, "Seat", read_clocks().utc_ns + 24 * k_hour_ns);
+  const std::string code =
+      records::invite_station(ledger, "Seat", read_clocks().utc_ns + 24 * k_hour_ns);
   entered(ledger, ledger.content().entries.size() - 1);
   // the station's own computer is not here: its key is
-  const SigningKey key = load_signing_key("/sim/office/tmp/station-" + records::random_hex(8), "station");
+  const SigningKey key =
+      load_signing_key("/sim/office/tmp/station-" + records::random_hex(8), "station");
   const std::string request = records::station_request(key, ledger.content().public_key, {}, code);
   try {
     const records::LedgerEntry& e = records::enrol_station(ledger, request, 0, "request");
     entered(ledger, e.seq);
   } catch (const Error& e) {
-    if (changes == world_.process().computer->clock_changes || !(e.code() == records::LedgerError::ended)) throw;
+    if (changes == world_.process().computer->clock_changes ||
+        !(e.code() == records::LedgerError::ended))
+      throw;
   }
 }
 
@@ -234,24 +259,32 @@ void SchoolDay::file_exam() {
     filed_files_[filed->file_sha256] = filed->candidate;
     ++counts_["filed clean"];
   }
-  const std::string what = exam.path + " filed " + (filing.seq ? "clean" : "not: " + text_of(filing.findings));
+  const std::string what =
+      exam.path + " filed " + (filing.seq ? "clean" : "not: " + text_of(filing.findings));
   if (changes != office.clock_changes) return;
-  const std::int64_t late_ns = world_.utc_ns() - exam.closed_utc_ns, least_late_ns = before_utc_ns - exam.closed_utc_ns;
+  const std::int64_t late_ns = world_.utc_ns() - exam.closed_utc_ns,
+                     least_late_ns = before_utc_ns - exam.closed_utc_ns;
   if (exam.clock != WrongClock::none) {
     // a station two hours ahead and an office that is ahead as well agree with one another
     const bool agree = exam.clock == WrongClock::ahead && late_ns > -k_patience_ns - k_margin_ns;
     if (filing.seq && !agree) wrong("a station's wrong clock was not named: " + what);
-    if (!filing.seq && !agree && !names_clock(filing.findings, exam)) wrong("a station's wrong clock was not named: " + what);
+    if (!filing.seq && !agree && !names_clock(filing.findings, exam))
+      wrong("a station's wrong clock was not named: " + what);
     return;
   }
-  const bool too_early = late_ns<-k_patience_ns - k_margin_ns, too_late = least_late_ns> 120 * k_hour_ns;
-  if (too_early && (filing.seq || !names_clock(filing.findings, exam))) wrong("the office's clock, behind, was not named: " + what);
-  if (too_late && (filing.seq || !names_clock(filing.findings, exam))) wrong("the office's clock, ahead, was not named: " + what);
+  const bool too_early =
+      late_ns<-k_patience_ns - k_margin_ns, too_late = least_late_ns> 120 * k_hour_ns;
+  if (too_early && (filing.seq || !names_clock(filing.findings, exam)))
+    wrong("the office's clock, behind, was not named: " + what);
+  if (too_late && (filing.seq || !names_clock(filing.findings, exam)))
+    wrong("the office's clock, ahead, was not named: " + what);
   const bool fits = late_ns > -k_patience_ns + k_margin_ns && late_ns < 24 * k_hour_ns;
   // cancelled: that of a candidate whom somebody forgot meanwhile
   const std::string nonce = records::ticket_nonce_in(SessionReader(exam.path).setup());
   const auto tickets = records::read_registry(ledger.content()).tickets;
-  const auto ticket = std::find_if(tickets.begin(), tickets.end(), [&](const records::IssuedTicket& t) { return t.ticket.nonce == nonce; });
+  const auto ticket =
+      std::find_if(tickets.begin(), tickets.end(),
+                   [&](const records::IssuedTicket& t) { return t.ticket.nonce == nonce; });
   const bool gone = ticket != tickets.end() && (ticket->cancelled_by || ticket->used_by);
   if (fits && !filing.seq && !begun_before && !gone) wrong("a sound exam was refused: " + what);
   if (too_early || too_late) ++counts_["office's clock named at filing"];
@@ -272,7 +305,8 @@ void SchoolDay::forget_somebody() {
   records::Identities identities(ledger.places().identities());
   const auto known = identities.of_pseudonym(pseudonym);
   if (!known) {
-    if (!to_forget_.contains(pseudonym)) wrong("an enrolled candidate is unknown: " + id + " " + pseudonym);
+    if (!to_forget_.contains(pseudonym))
+      wrong("an enrolled candidate is unknown: " + id + " " + pseudonym);
     return;
   }
   to_forget_.insert(pseudonym);
@@ -287,10 +321,14 @@ void SchoolDay::forget_somebody() {
 void SchoolDay::cancel_some_ticket() {
   records::Ledger ledger = open_ledger();
   const records::Registry registry = records::read_registry(ledger.content());
-  const auto live = [](const records::IssuedTicket& t) { return !t.used_by && !t.cancelled_by && !t.ticket.candidate.empty(); };
+  const auto live = [](const records::IssuedTicket& t) {
+    return !t.used_by && !t.cancelled_by && !t.ticket.candidate.empty();
+  };
   // those of the morning are sat meanwhile: an exam that was filed clean may not be taken back
   const auto t = std::find_if(registry.tickets.rbegin(), registry.tickets.rend(), live);
-  if (t == registry.tickets.rend() || static_cast<std::size_t>(registry.tickets.rend() - t) <= morning_.exams.size()) return;
+  if (t == registry.tickets.rend() ||
+      static_cast<std::size_t>(registry.tickets.rend() - t) <= morning_.exams.size())
+    return;
   try {
     entered(ledger, records::cancel_ticket(ledger, t->seq, "drawn").seq);
   } catch (const Error& e) {  // somebody was quicker
@@ -308,7 +346,8 @@ void SchoolDay::let_some_exam_begin() {
     entered(ledger, ledger.content().entries.size() - 1);
     static_cast<void>(records::parse_begin(word, ledger.content().public_key, "word"));
   } catch (const Error& e) {
-    const bool clock = e.code() == records::LedgerError::not_now, cancelled = e.code() == records::LedgerError::ended;
+    const bool clock = e.code() == records::LedgerError::not_now,
+               cancelled = e.code() == records::LedgerError::ended;
     if (!clock && !cancelled) throw;
     ++counts_[clock ? "no word outside the ticket's time" : "no word for a cancelled ticket"];
   }
@@ -321,10 +360,14 @@ void SchoolDay::erase_some_session() {
   std::advance(some, static_cast<long>(world_.random().below(filed_files_.size())));
   const std::string hash = some->first;
   for (const auto& e : ledger.content().entries) {
-    if (const auto* filed = e.as<records::SessionEntry>(); filed == nullptr || filed->file_sha256 != hash) continue;
+    if (const auto* filed = e.as<records::SessionEntry>();
+        filed == nullptr || filed->file_sha256 != hash)
+      continue;
     to_erase_.insert(hash);
     const std::uint64_t seq = e.seq;
-    if (records::erase(ledger, {.sessions = {seq}, .motion = true, .results = true}, "drawn").empty()) return;
+    if (records::erase(ledger, {.sessions = {seq}, .motion = true, .results = true}, "drawn")
+            .empty())
+      return;
     entered(ledger, ledger.content().entries.size() - 1);
     erased_.insert(hash);
     return;
@@ -342,7 +385,8 @@ void SchoolDay::write_receipt() {
 
 void SchoolDay::take_backup() {
   const records::Backup made = records::back_up({k_ledger}, k_backup, true);
-  if (!made.missing.empty()) wrong("a backup lacks sessions that were filed: " + made.missing.front());
+  if (!made.missing.empty())
+    wrong("a backup lacks sessions that were filed: " + made.missing.front());
   if (!backed_up_ || made.checkpoint.size > backed_up_->size) backed_up_ = made.checkpoint;
 }
 
@@ -356,10 +400,12 @@ void SchoolDay::cosign_here() {
   for (int i = 0; i < 50 && to_cosigner_.empty(); ++i) world_.sleep(20'000'000);
   if (to_cosigner_.empty()) return;
   const std::string request = to_cosigner_;
-  records::Cosigner cosigner{"cosigner.example", load_signing_key("/sim/cosigner/home/cosigner.key", "cosigner"), records::cosigner_memory_path(),
-                             morning_.promise.public_key};
+  records::Cosigner cosigner{"cosigner.example",
+                             load_signing_key("/sim/cosigner/home/cosigner.key", "cosigner"),
+                             records::cosigner_memory_path(), morning_.promise.public_key};
   try {
-    const records::Cosigned signed_note = records::cosign(cosigner, request, "request", static_cast<std::uint64_t>(read_clocks().utc_ns / k_s_ns));
+    const records::Cosigned signed_note = records::cosign(
+        cosigner, request, "request", static_cast<std::uint64_t>(read_clocks().utc_ns / k_s_ns));
     to_cosigner_.clear();
     cosigner_asks_since_.reset();
     if (!signed_note.findings.empty()) {
@@ -374,7 +420,8 @@ void SchoolDay::cosign_here() {
   } catch (const Error& e) {
     if (!(e.code() == records::LedgerError::another_state)) throw;
     const auto signed_last = std::get<Message>(e.problem().values().at(1));  // "3 entries"
-    cosigner_asks_since_ = static_cast<std::uint64_t>(std::get<std::int64_t>(signed_last.values().at(0)));
+    cosigner_asks_since_ =
+        static_cast<std::uint64_t>(std::get<std::int64_t>(signed_last.values().at(0)));
     to_cosigner_.clear();
   }
 }
@@ -384,17 +431,21 @@ void SchoolDay::keep_cosignature() {
   if (to_office_.empty()) return;
   const std::string note = to_office_;
   records::Ledger ledger = open_ledger();
-  const auto checked = records::check_cosigned(note, records::read_cosigners(records::known_cosigners_path()), ledger.content());
-  if (!checked.findings.empty()) return wrong("a cosigned note does not hold: " + text_of(checked.findings));
+  const auto checked = records::check_cosigned(
+      note, records::read_cosigners(records::known_cosigners_path()), ledger.content());
+  if (!checked.findings.empty())
+    return wrong("a cosigned note does not hold: " + text_of(checked.findings));
   ledger.keep_cosignatures(checked.checkpoint->size, checked.cosignatures);
-  for (const auto& s : checked.cosignatures) kept_cosignatures_.emplace(checked.checkpoint->size, records::signature_line(s));
+  for (const auto& s : checked.cosignatures)
+    kept_cosignatures_.emplace(checked.checkpoint->size, records::signature_line(s));
 }
 
 void SchoolDay::verify() {
   records::LedgerCheck check = records::check_ledger({k_ledger}, false);
   // between an erasure's entry and the removal of the file somebody else sees both
   for (const auto& s : records::read_registry(records::read_ledger({k_ledger})).sessions)
-    if (s.motion_erased_by) std::erase_if(check.findings, [&](const records::Finding& f) { return f.entry == s.seq; });
+    if (s.motion_erased_by)
+      std::erase_if(check.findings, [&](const records::Finding& f) { return f.entry == s.seq; });
   // a disk that fails meanwhile may well be in the way of looking
   if (!check.findings.empty() && !world_.process().computer->had_faults)
     wrong("while others work the ledger does not hold: " + text_of(check.findings));

@@ -1,6 +1,7 @@
-// A day at a school whose computers fail, as a seed draws it: several people at the office's computer enter things into one ledger at the same time,
-// a cosigner signs on another, programs are killed, the power goes, the disk is full, clocks are set. What a function acknowledged by returning is
-// written down here, in plain lists, and must be there at the end.
+// A day at a school whose computers fail, as a seed draws it: several people at the office's
+// computer enter things into one ledger at the same time, a cosigner signs on another, programs are
+// killed, the power goes, the disk is full, clocks are set. What a function acknowledged by
+// returning is written down here, in plain lists, and must be there at the end.
 #pragma once
 
 #include <map>
@@ -49,7 +50,22 @@ struct Morning {
 [[nodiscard]] Morning make_morning();
 
 /// What people do, each a run of the program.
-enum class Task { issue, station, file, release, forget, receipt, backup, checkpoint, cosign, keep_cosignature, verify, cancel, begin, erase };
+enum class Task {
+  issue,
+  station,
+  file,
+  release,
+  forget,
+  receipt,
+  backup,
+  checkpoint,
+  cosign,
+  keep_cosignature,
+  verify,
+  cancel,
+  begin,
+  erase
+};
 inline constexpr int k_tasks = static_cast<int>(Task::erase) + 1;
 [[nodiscard]] const char* name_of(Task task);
 
@@ -63,14 +79,21 @@ class SchoolDay {
   void give(const std::string& person, const std::vector<Task>& tasks);
   [[nodiscard]] World& world() noexcept { return world_; }
   /// The school's key is replaced; at the call `interrupt` (0: none) the power goes first.
-  void replace_key_at_the_end(std::uint64_t interrupt) { replaces_key_ = true, interrupt_key_ = interrupt; }
+  void replace_key_at_the_end(std::uint64_t interrupt) {
+    replaces_key_ = true, interrupt_key_ = interrupt;
+  }
   /// Runs the day, and compares at its end. What is wrong, in words; empty when nothing is.
   [[nodiscard]] std::vector<std::string> run();
-  /// The office's ledger is lost, and restored from its backup, if there is one; at the call `interrupt` (0: none) the power goes first.
-  void lose_ledger_at_the_end(std::uint64_t interrupt) { loses_ledger_ = true, interrupt_restore_ = interrupt; }
+  /// The office's ledger is lost, and restored from its backup, if there is one; at the call
+  /// `interrupt` (0: none) the power goes first.
+  void lose_ledger_at_the_end(std::uint64_t interrupt) {
+    loses_ledger_ = true, interrupt_restore_ = interrupt;
+  }
   [[nodiscard]] std::size_t acknowledged() const noexcept { return entries_.size(); }
   /// Counts of what happened, for the campaign's summary.
-  [[nodiscard]] const std::map<std::string, std::uint64_t>& counts() const noexcept { return counts_; }
+  [[nodiscard]] const std::map<std::string, std::uint64_t>& counts() const noexcept {
+    return counts_;
+  }
 
  private:
   struct Entered {
@@ -125,11 +148,12 @@ class SchoolDay {
   std::uint64_t interrupt_key_ = 0;
 
   // what was acknowledged
-  std::vector<Entered> entries_;                    ///< in the order of acknowledgement
-  std::map<std::string, std::string> filed_files_;  ///< SHA-256 of a recording; the pseudonym of who sat
-  std::set<std::string> to_erase_, erased_;         ///< SHA-256 of recordings: begun, and acknowledged
-  std::map<std::size_t, bool> filed_exams_;         ///< by number: begun to be filed, by anybody
-  std::map<std::string, std::string> known_;        ///< pseudonym by the school's own number
+  std::vector<Entered> entries_;  ///< in the order of acknowledgement
+  std::map<std::string, std::string>
+      filed_files_;                           ///< SHA-256 of a recording; the pseudonym of who sat
+  std::set<std::string> to_erase_, erased_;   ///< SHA-256 of recordings: begun, and acknowledged
+  std::map<std::size_t, bool> filed_exams_;   ///< by number: begun to be filed, by anybody
+  std::map<std::string, std::string> known_;  ///< pseudonym by the school's own number
   std::set<std::string> to_forget_, forgotten_;     ///< pseudonyms: begun, and acknowledged
   std::map<std::string, nlohmann::json> receipts_;  ///< by path
   std::optional<records::Checkpoint> backed_up_;

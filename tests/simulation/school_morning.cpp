@@ -28,13 +28,17 @@ Morning make_morning() {
   World world(1, empty, 0);
   Morning out;
   std::string school_key, code;
-  const auto ledger = [] { return records::Ledger("/sim/office/ledger", records::load_school_key(records::school_key_path())); };
+  const auto ledger = [] {
+    return records::Ledger("/sim/office/ledger",
+                           records::load_school_key(records::school_key_path()));
+  };
   world.calmly("office", [&] {
     make_private_folder("/sim/office/home");
     make_private_folder("/sim/office/exams");
     make_private_folder("/sim/office/receipts");
     make_private_folder("/sim/office/tmp");
-    records::Ledger::create("/sim/office/ledger", "School of Dentistry", records::load_school_key(records::school_key_path(), true));
+    records::Ledger::create("/sim/office/ledger", "School of Dentistry",
+                            records::load_school_key(records::school_key_path(), true));
     records::Identities("/sim/office/ledger/identities.db", true);
     records::Ledger l = ledger();
     school_key = l.content().public_key;
@@ -59,10 +63,13 @@ Morning make_morning() {
     records::Ledger l = ledger();
     static_cast<void>(records::enrol_station(l, request, 0, "request"));
     const std::int64_t now = read_clocks().utc_ns;
-    out.promise = records::promise(*scenarios::prepare_exam(k_scenario, {}), l.content(), now - 3 * k_hour_ns, now + 3 * k_hour_ns);
+    out.promise = records::promise(*scenarios::prepare_exam(k_scenario, {}), l.content(),
+                                   now - 3 * k_hour_ns, now + 3 * k_hour_ns);
     records::Identities identities(l.places().identities());
     for (std::size_t i = 0; i < clocks.size(); ++i)
-      tickets.push_back(records::issue(l, out.promise, identities.enrol("morning-" + std::to_string(i), "", out.promise.exam, l.key())));
+      tickets.push_back(records::issue(
+          l, out.promise,
+          identities.enrol("morning-" + std::to_string(i), "", out.promise.exam, l.key())));
   });
   std::vector<Bytes> files;
   world.calmly("station", [&] {
@@ -70,7 +77,8 @@ Morning make_morning() {
       const std::string path = "/sim/station/exam-" + std::to_string(i) + ".cavum";
       testing_ledger::sit_shortly(k_scenario, path, tickets[i], clocks[i].clock);
       files.push_back(read_file(path));
-      out.exams.push_back({"/sim/office/exams/" + std::to_string(i) + ".cavum", clocks[i].named, SessionReader(path).created().utc_ns,
+      out.exams.push_back({"/sim/office/exams/" + std::to_string(i) + ".cavum", clocks[i].named,
+                           SessionReader(path).created().utc_ns,
                            SessionReader(path).seal()->clocks.utc_ns});
     }
   });
@@ -80,7 +88,8 @@ Morning make_morning() {
   world.calmly("cosigner", [&] {
     make_private_folder("/sim/cosigner/home");
     const SigningKey key = load_signing_key("/sim/cosigner/home/cosigner.key", "cosigner");
-    const std::string line = records::key_line({"cosigner.example", records::NoteKind::cosignature, key.public_key});
+    const std::string line =
+        records::key_line({"cosigner.example", records::NoteKind::cosignature, key.public_key});
     code = line;
   });
   world.calmly("office", [&] { write_text_file(records::known_cosigners_path(), code + "\n"); });

@@ -14,8 +14,10 @@ namespace {
 constexpr std::int64_t k_sector = 512;
 
 void put(std::string& bytes, std::int64_t at, const char* from, std::int64_t n) {
-  if (static_cast<std::int64_t>(bytes.size()) < at + n) bytes.resize(static_cast<std::size_t>(at + n));
-  bytes.replace(static_cast<std::size_t>(at), static_cast<std::size_t>(n), from, static_cast<std::size_t>(n));
+  if (static_cast<std::int64_t>(bytes.size()) < at + n)
+    bytes.resize(static_cast<std::size_t>(at + n));
+  bytes.replace(static_cast<std::size_t>(at), static_cast<std::size_t>(n), from,
+                static_cast<std::size_t>(n));
 }
 
 void apply(std::string& bytes, const Node::Write& w) {
@@ -42,16 +44,21 @@ void apply_in_part(std::string& bytes, const Node::Write& w, Random& random) {
 
 bool Node::is_folder() const { return S_ISDIR(mode); }
 
-std::int64_t Node::size() const { return static_cast<std::int64_t>(shared ? shared_size : bytes.size()); }
+std::int64_t Node::size() const {
+  return static_cast<std::int64_t>(shared ? shared_size : bytes.size());
+}
 
 std::string Node::read(std::int64_t at, std::int64_t n) const {
   const std::int64_t there = std::clamp<std::int64_t>(size() - at, 0, n);
-  return there == 0 ? std::string() : std::string((shared ? shared->data() : bytes.data()) + at, static_cast<std::size_t>(there));
+  return there == 0 ? std::string()
+                    : std::string((shared ? shared->data() : bytes.data()) + at,
+                                  static_cast<std::size_t>(there));
 }
 
 void Node::write(std::int64_t at, const std::string& what) {
   if (shared) {
-    if (static_cast<std::size_t>(at) + what.size() > shared->size()) throw std::length_error("a mapped file grew beyond the simulation's memory");
+    if (static_cast<std::size_t>(at) + what.size() > shared->size())
+      throw std::length_error("a mapped file grew beyond the simulation's memory");
     std::memcpy(shared->data() + at, what.data(), what.size());
     shared_size = std::max(shared_size, static_cast<std::size_t>(at) + what.size());
     return;
@@ -62,8 +69,10 @@ void Node::write(std::int64_t at, const std::string& what) {
 
 void Node::resize(std::int64_t size) {
   if (shared) {
-    if (static_cast<std::size_t>(size) > shared->size()) throw std::length_error("a mapped file grew beyond the simulation's memory");
-    if (static_cast<std::size_t>(size) < shared_size) std::memset(shared->data() + size, 0, shared_size - static_cast<std::size_t>(size));
+    if (static_cast<std::size_t>(size) > shared->size())
+      throw std::length_error("a mapped file grew beyond the simulation's memory");
+    if (static_cast<std::size_t>(size) < shared_size)
+      std::memset(shared->data() + size, 0, shared_size - static_cast<std::size_t>(size));
     shared_size = static_cast<std::size_t>(size);
     return;
   }
@@ -135,7 +144,8 @@ void Disk::lose_power(Random& random) {
     for (const auto& w : n.unsynced_writes) apply_in_part(n.synced_bytes, w, random);
     n.unsynced_writes.clear();
     n.bytes = n.synced_bytes;
-    if (const auto kept = random.below(n.unsynced_names.size() + 1); kept > 0) n.synced_names = n.unsynced_names[kept - 1];
+    if (const auto kept = random.below(n.unsynced_names.size() + 1); kept > 0)
+      n.synced_names = n.unsynced_names[kept - 1];
     n.unsynced_names.clear();
     n.names = n.synced_names;
     n.locks.clear();

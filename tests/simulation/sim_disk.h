@@ -1,5 +1,6 @@
-// A computer's disk in memory, which forgets on a power cut what nobody synced: bytes since the last fsync of their file are then there in part, by
-// sectors, drawn at random; names since the last fsync of their folder up to a drawn one. Renaming and making a name are each one step.
+// A computer's disk in memory, which forgets on a power cut what nobody synced: bytes since the
+// last fsync of their file are then there in part, by sectors, drawn at random; names since the
+// last fsync of their folder up to a drawn one. Renaming and making a name are each one step.
 #pragma once
 
 #include <array>
@@ -23,7 +24,8 @@ struct ByteLock {
   std::int64_t first = 0, last = 0;  ///< both in it
 };
 
-/// A file or folder. What a process sees is `bytes` and `names`; what a power cut leaves is `synced…` and some of `unsynced…`.
+/// A file or folder. What a process sees is `bytes` and `names`; what a power cut leaves is
+/// `synced…` and some of `unsynced…`.
 struct Node {
   std::uint64_t number = 0;
   std::uint32_t mode = 0;  ///< S_IFDIR or S_IFREG, and permissions
@@ -36,12 +38,14 @@ struct Node {
     std::int64_t size = 0;
   };
   std::vector<Write> unsynced_writes;
-  std::unique_ptr<std::array<char, 1 << 19>> shared;  ///< once it is mapped into memory: its bytes lie here, at one address
+  std::unique_ptr<std::array<char, 1 << 19>>
+      shared;  ///< once it is mapped into memory: its bytes lie here, at one address
   std::size_t shared_size = 0;
   std::int64_t promised = 0;  ///< bytes up to here have room, were the disk full
 
   std::map<std::string, NodePtr> names, synced_names;
-  std::vector<std::map<std::string, NodePtr>> unsynced_names;  ///< the folder after each change since its last sync
+  std::vector<std::map<std::string, NodePtr>>
+      unsynced_names;  ///< the folder after each change since its last sync
 
   std::vector<ByteLock> locks;
   int whole_lock_holder = 0;  ///< descriptor with flock(LOCK_EX); 0: nobody
@@ -70,7 +74,8 @@ class Disk {
 
  private:
   NodePtr root_;
-  std::uint64_t last_number_ = 1'000'000'000'000;  // no number of a real file, which /proc/locks would name
+  std::uint64_t last_number_ =
+      1'000'000'000'000;  // no number of a real file, which /proc/locks would name
 };
 
 }  // namespace cavum::simulation

@@ -23,7 +23,9 @@ std::vector<std::unique_ptr<char[]>>& spare_stacks() {
 
 }  // namespace
 
-World* World::here() noexcept { return g_world != nullptr && g_world->running_ != nullptr ? g_world : nullptr; }
+World* World::here() noexcept {
+  return g_world != nullptr && g_world->running_ != nullptr ? g_world : nullptr;
+}
 
 std::int64_t Computer::clock_error_ns(std::int64_t true_ns) const {
   return clock_ahead_ns + (true_ns - drift_since_ns) / 1'000'000 * drift_ns_per_s / 1000;
@@ -31,7 +33,8 @@ std::int64_t Computer::clock_error_ns(std::int64_t true_ns) const {
 
 World::World(std::uint64_t seed, const std::map<std::string, Disk>& disks, std::int64_t true_ns)
     : random_(seed), given_out_(~seed), now_ns_(true_ns) {
-  // its locks between threads are of no use here, and one that a killed process holds would be held for ever
+  // its locks between threads are of no use here, and one that a killed process holds would be held
+  // for ever
   static const int unlocked = sqlite3_config(SQLITE_CONFIG_SINGLETHREAD);
   if (unlocked != SQLITE_OK) throw std::logic_error("SQLite was used before the first world");
   sqlite3_randomness(0, nullptr);  // it draws its seed anew, from this world's random numbers
@@ -56,7 +59,8 @@ void World::enter(unsigned high, unsigned low) {
   g_world->to_scheduler();
 }
 
-Process& World::start(const std::string& computer, const std::string& name, std::function<void()> body) {
+Process& World::start(const std::string& computer, const std::string& name,
+                      std::function<void()> body) {
   Process& p = *processes_.emplace_back(std::make_unique<Process>());
   p.number = ++last_process_;
   p.device = ++g_devices;
@@ -75,7 +79,8 @@ Process& World::start(const std::string& computer, const std::string& name, std:
   p.context.uc_stack.ss_size = k_stack;
   p.context.uc_link = nullptr;
   const auto address = reinterpret_cast<std::uintptr_t>(&p);
-  ::makecontext(&p.context, reinterpret_cast<void (*)()>(&World::enter), 2, static_cast<unsigned>(address >> 32), static_cast<unsigned>(address));
+  ::makecontext(&p.context, reinterpret_cast<void (*)()>(&World::enter), 2,
+                static_cast<unsigned>(address >> 32), static_cast<unsigned>(address));
   return p;
 }
 
@@ -98,7 +103,8 @@ void World::never_again() {
 }
 
 void World::run(const std::function<void(Process&)>& at_end) {
-  std::stable_sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.at_call > b.at_call; });
+  std::stable_sort(events_.begin(), events_.end(),
+                   [](const Event& a, const Event& b) { return a.at_call > b.at_call; });
   std::vector<Process*> told;
   for (;;) {
     std::vector<Process*> ready;
@@ -225,12 +231,15 @@ void World::sleep(std::int64_t ns) {
   to_scheduler();
 }
 
-std::int64_t World::utc_ns() const { return k_begin_utc_ns + now_ns_ + running_->computer->clock_error_ns(now_ns_); }
+std::int64_t World::utc_ns() const {
+  return k_begin_utc_ns + now_ns_ + running_->computer->clock_error_ns(now_ns_);
+}
 
 NodePtr World::find(const std::string& path, NodePtr* folder, std::string* name) const {
   const std::string own = k_root + running_->computer->name;
   if (path + "/" == k_root) return running_->computer->disk.root();
-  if (!path.starts_with(own) || (path.size() > own.size() && path[own.size()] != '/')) return nullptr;
+  if (!path.starts_with(own) || (path.size() > own.size() && path[own.size()] != '/'))
+    return nullptr;
   std::string inside = path.substr(own.size());
   while (!inside.empty() && inside.back() == '/') inside.pop_back();
   const auto slash = inside.rfind('/');

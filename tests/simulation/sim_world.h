@@ -1,7 +1,8 @@
-// Computers, their processes, disks and clocks, all in one process of the real machine and repeated exactly by a seed. A process is a stack of its
-// own; at every call to the system (libc_calls.cpp takes them all: files, locks, clocks, sleep, random numbers) another may go on, and the seed says
-// which. A killed process never goes on, as if the machine had taken it away between two calls; a power cut kills all of a computer and cuts its disk
-// back.
+// Computers, their processes, disks and clocks, all in one process of the real machine and repeated
+// exactly by a seed. A process is a stack of its own; at every call to the system (libc_calls.cpp
+// takes them all: files, locks, clocks, sleep, random numbers) another may go on, and the seed says
+// which. A killed process never goes on, as if the machine had taken it away between two calls; a
+// power cut kills all of a computer and cuts its disk back.
 #pragma once
 
 #include <ucontext.h>
@@ -81,7 +82,8 @@ class World {
   World& operator=(const World&) = delete;
 
   Process& start(const std::string& computer, const std::string& name, std::function<void()> body);
-  /// Runs until every process has ended or was killed. `at_end` is told of each, and may start others.
+  /// Runs until every process has ended or was killed. `at_end` is told of each, and may start
+  /// others.
   void run(const std::function<void(Process&)>& at_end);
   /// `action` on a computer without any interruption, fault or other process.
   void calmly(const std::string& computer, const std::function<void()>& action);
@@ -91,7 +93,8 @@ class World {
   [[nodiscard]] std::int64_t true_ns() const noexcept { return now_ns_; }
   [[nodiscard]] std::uint64_t calls() const noexcept { return calls_; }
   [[nodiscard]] Random& random() noexcept { return random_; }
-  /// What the system gives out as random: of its own, for SQLite asks for some when another process had asked last, be it on another day.
+  /// What the system gives out as random: of its own, for SQLite asks for some when another process
+  /// had asked last, be it on another day.
   [[nodiscard]] Random& given_out() noexcept { return given_out_; }
   void plan(Event event) { events_.push_back(std::move(event)); }
   /// At each call another process may go on, in so many of a hundred.

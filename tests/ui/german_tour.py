@@ -61,7 +61,7 @@ def commands(source, folder):
     yield ["replay", s, "--verify"]
     yield ["verify", s]
     yield ["report", s, "--out", f"{folder}/instructor.html"]
-    yield ["report", s, "--for", "student", "--no-replay", "--beside", "expert", "--out", f"{folder}/student.html"]
+    yield ["report", s, "--for", "student", "--no-replay", "--compare", "expert", "--out", f"{folder}/student.html"]
     yield ["scenario", "check", slot]
     yield ["tooth", "info", f"{source}/data/teeth/block.cvt"]
     yield ["devices"]

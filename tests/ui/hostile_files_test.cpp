@@ -1,4 +1,5 @@
-// Files from strangers, and programs at the same time: what the built program writes, where, for whom, and what it lets reach the terminal.
+// Files from strangers, and programs at the same time: what the built program writes, where, for
+// whom, and what it lets reach the terminal.
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -27,15 +28,18 @@ class HostileFiles : public testing_ui::Program {
     Program::SetUp();
     ASSERT_EQ(run("ledger init " + path("L") + " --school Dentistry").exit_code, 0);
   }
-  std::string scenario() const { return std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml"; }
+  std::string scenario() const {
+    return std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml";
+  }
   std::string ticket_for(const std::string& who, const std::string& out) const {
-    return "ledger ticket " + path("L") + " " + scenario() + " --candidate " + who + " --from 2020-01-01T00:00Z --until 2190-01-01T00:00Z --out " +
-           path(out);
+    return "ledger ticket " + path("L") + " " + scenario() + " --candidate " + who +
+           " --from 2020-01-01T00:00Z --until 2190-01-01T00:00Z --out " + path(out);
   }
   testing_ui::Ran sit(const std::string& who, const std::string& out) const {
     return run("exam " + scenario() + " " + who + " --operator expert --quiet --out " + path(out));
   }
-  /// A session that holds, with `text` as its verdict, the kind of an event, the candidate and the device: of a program other than this one.
+  /// A session that holds, with `text` as its verdict, the kind of an event, the candidate and the
+  /// device: of a program other than this one.
   void seal_with(const std::string& file, const std::string& text) const {
     scenarios::ExamOptions options;
     options.candidate = options.source.name = text;
@@ -59,7 +63,8 @@ class HostileFiles : public testing_ui::Program {
     db.run(sql.c_str());
     EXPECT_GT(db.integer("SELECT total_changes()"), 0) << sql;
   }
-  /// What was printed has no command for a terminal in it, and no line that begins with what should stand within one.
+  /// What was printed has no command for a terminal in it, and no line that begins with what should
+  /// stand within one.
   static void expect_tame(const testing_ui::Ran& r, const std::string& what) {
     for (const std::string& text : {r.out, r.err}) {
       EXPECT_EQ(terminal_text(text), text) << what << ": " << text;
@@ -74,24 +79,33 @@ TEST_F(HostileFiles, WhatIsTheSchoolsIsItsUsersAloneWhateverTheUmask) {
   ASSERT_EQ(run("ledger init " + path("open/L2") + " --school Dentistry").exit_code, 0);
   ASSERT_EQ(run(ticket_for("4711", "t.ticket")).exit_code, 0);
   write_text_file(path("class.csv"), "id,name\n4712,Bob Ray\n");
-  ASSERT_EQ(run("ledger ticket " + path("L") + " " + scenario() + " --candidates " + path("class.csv") +
-                " --from 2020-01-01T00:00Z --until 2190-01-01T00:00Z --out " + path("tickets"))
-                .exit_code,
-            0);
+  ASSERT_EQ(
+      run("ledger ticket " + path("L") + " " + scenario() + " --candidates " + path("class.csv") +
+          " --from 2020-01-01T00:00Z --until 2190-01-01T00:00Z --out " + path("tickets"))
+          .exit_code,
+      0);
   ASSERT_EQ(sit("--ticket " + path("t.ticket"), "s.cavum").exit_code, 0);
-  const auto added = run("ledger add " + path("L") + " " + path("s.cavum") + " --simulated --with-findings --receipts " + path("receipts"));
+  const auto added = run("ledger add " + path("L") + " " + path("s.cavum") +
+                         " --simulated --with-findings --receipts " + path("receipts"));
   EXPECT_FALSE(fs::is_empty(path("receipts"))) << added.out << added.err;
   for (const char* format : {"moodle", "lti", "json", "csv"})
-    EXPECT_EQ(run("ledger export " + path("L") + " --format " + format + " --out " + path(std::string("export-") + format)).exit_code, 0);
-  EXPECT_EQ(run("ledger receipt " + path("L") + " --entry 0 --out " + path("receipt.json")).exit_code, 0);
-  EXPECT_EQ(run("report " + path("s.cavum") + " --no-replay --out " + path("report.html")).exit_code, 0);
+    EXPECT_EQ(run("ledger export " + path("L") + " --format " + format + " --out " +
+                  path(std::string("export-") + format))
+                  .exit_code,
+              0);
+  EXPECT_EQ(
+      run("ledger receipt " + path("L") + " --entry 0 --out " + path("receipt.json")).exit_code, 0);
+  EXPECT_EQ(
+      run("report " + path("s.cavum") + " --no-replay --out " + path("report.html")).exit_code, 0);
   ::umask(before);
 
   const fs::path ours = path("");
   std::size_t seen = 0;
   for (const auto& entry : fs::recursive_directory_iterator(ours)) {
     const std::string name = fs::relative(entry.path(), ours).string();
-    if (name == "out" || name == "err" || name == "class.csv" || name == "report.html" || name == "home/school.pub") continue;
+    if (name == "out" || name == "err" || name == "class.csv" || name == "report.html" ||
+        name == "home/school.pub")
+      continue;
     struct stat info {};
     ASSERT_EQ(::stat(entry.path().c_str(), &info), 0);
     EXPECT_EQ(info.st_mode & 0777u, entry.is_directory() ? 0700u : 0600u) << name;
@@ -105,7 +119,8 @@ TEST_F(HostileFiles, WhatIsTheSchoolsIsItsUsersAloneWhateverTheUmask) {
 
 TEST_F(HostileFiles, TwentyProgramsThatAddAtOnceAllAdd) {
   constexpr int k_programs = 20;
-  constexpr auto k_held = std::chrono::seconds(3);  // longer than the first of them need to ask for it
+  constexpr auto k_held =
+      std::chrono::seconds(3);  // longer than the first of them need to ask for it
   std::vector<::pid_t> children;
   Database held = Database::open(path("L/ledger.db"), false);
   held.run("PRAGMA journal_mode = WAL; BEGIN IMMEDIATE");
@@ -114,8 +129,9 @@ TEST_F(HostileFiles, TwentyProgramsThatAddAtOnceAllAdd) {
     const ::pid_t child = ::fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
-      const std::string command =
-          std::string(CAVUM_BINARY) + " " + ticket_for("student-" + number, "t" + number + ".ticket") + " >" + path("out" + number) + " 2>&1";
+      const std::string command = std::string(CAVUM_BINARY) + " " +
+                                  ticket_for("student-" + number, "t" + number + ".ticket") + " >" +
+                                  path("out" + number) + " 2>&1";
       ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
       ::_exit(127);
     }
@@ -126,19 +142,23 @@ TEST_F(HostileFiles, TwentyProgramsThatAddAtOnceAllAdd) {
   held.close();
   for (int i = 0; i < k_programs; ++i) {
     int status = 0;
-    ASSERT_EQ(::waitpid(children[static_cast<std::size_t>(i)], &status, 0), children[static_cast<std::size_t>(i)]);
-    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << read_text_file(path("out" + std::to_string(i)));
+    ASSERT_EQ(::waitpid(children[static_cast<std::size_t>(i)], &status, 0),
+              children[static_cast<std::size_t>(i)]);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0)
+        << read_text_file(path("out" + std::to_string(i)));
     EXPECT_TRUE(fs::exists(path("t" + std::to_string(i) + ".ticket")));
   }
   const json verified = run_json("ledger verify " + path("L"));
   EXPECT_EQ(verified["entries"], 1 + k_programs);
   EXPECT_EQ(verified["findings"], json::array());
-  EXPECT_EQ(run_json("ledger candidates " + path("L"))["candidates"].size(), static_cast<std::size_t>(k_programs));
+  EXPECT_EQ(run_json("ledger candidates " + path("L"))["candidates"].size(),
+            static_cast<std::size_t>(k_programs));
 }
 
 TEST_F(HostileFiles, ACandidateWithSlashesIsNoPath) {
   ASSERT_EQ(sit("--candidate ../../x", "deep.cavum").exit_code, 0);
-  const auto added = run("ledger add " + path("L") + " " + path("deep.cavum") + " --without-ticket --simulated --with-findings --json");
+  const auto added = run("ledger add " + path("L") + " " + path("deep.cavum") +
+                         " --without-ticket --simulated --with-findings --json");
   ASSERT_EQ(json::parse(added.out)["sessions"][0]["filed"], true) << added.out << added.err;
   ASSERT_EQ(run("ledger release " + path("L") + " --session 1 --with-findings").exit_code, 0);
   fs::create_directories(path("a/b"));
@@ -159,21 +179,26 @@ TEST_F(HostileFiles, NoTextOfAFileCommandsTheTerminal) {
                                           mark;
   seal_with(path("s.cavum"), json::parse("\"" + evil + "\""));
   std::string printed;
-  for (const std::string verb :
-       {"grade ", "grade --json ", "grade --why removed ", "verify ", "verify --json ", "replay --verify ", "replay --verify --json "}) {
+  for (const std::string verb : {"grade ", "grade --json ", "grade --why removed ", "verify ",
+                                 "verify --json ", "replay --verify ", "replay --verify --json "}) {
     const auto r = run(verb + path("s.cavum"));
     expect_tame(r, verb);
     printed += r.out + r.err;
   }
-  EXPECT_NE(printed.find(mark), std::string::npos) << "what was planted is shown, tamed: " << printed;
+  EXPECT_NE(printed.find(mark), std::string::npos)
+      << "what was planted is shown, tamed: " << printed;
 
-  const auto added = run("ledger add " + path("L") + " " + path("s.cavum") + " --without-ticket --simulated --with-findings");
+  const auto added = run("ledger add " + path("L") + " " + path("s.cavum") +
+                         " --without-ticket --simulated --with-findings");
   expect_tame(added, "ledger add");
   for (const char* trigger : {"entry_stays", "entry_is_kept"})
-    edit("L/ledger.db", std::string("DROP TRIGGER ") + trigger + "; CREATE TABLE IF NOT EXISTS z (x); INSERT INTO z VALUES (1)");
-  edit("L/ledger.db", "UPDATE entry SET text = replace(text, '\"candidate\":\"', '\"candidate\":\"" + evil + "')");
+    edit("L/ledger.db", std::string("DROP TRIGGER ") + trigger +
+                            "; CREATE TABLE IF NOT EXISTS z (x); INSERT INTO z VALUES (1)");
+  edit("L/ledger.db",
+       "UPDATE entry SET text = replace(text, '\"candidate\":\"', '\"candidate\":\"" + evil + "')");
   std::string shown;
-  for (const std::string verb : {"ledger show ", "ledger show --json ", "ledger verify ", "ledger verify --json "}) {
+  for (const std::string verb :
+       {"ledger show ", "ledger show --json ", "ledger verify ", "ledger verify --json "}) {
     const auto r = run(verb + path("L"));
     EXPECT_EQ(r.exit_code, 1) << verb;
     expect_tame(r, verb);
@@ -182,7 +207,8 @@ TEST_F(HostileFiles, NoTextOfAFileCommandsTheTerminal) {
   EXPECT_NE(shown.find(mark), std::string::npos) << shown;
 
   for (const std::string verb : {"grade ", "verify ", "replay --verify "}) {  // a name of a file
-    fs::copy_file(path("s.cavum"), path("\x1b[31m\nFORGED.cavum"), fs::copy_options::overwrite_existing);
+    fs::copy_file(path("s.cavum"), path("\x1b[31m\nFORGED.cavum"),
+                  fs::copy_options::overwrite_existing);
     expect_tame(run(verb + "'" + path("\x1b[31m\nFORGED.cavum") + "'"), verb + "of a hostile name");
   }
 }

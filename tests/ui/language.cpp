@@ -24,18 +24,23 @@ std::string without(std::string text, const std::string& open, const std::string
 }  // namespace
 
 std::vector<std::string> untranslated(const std::string& text) {
-  static const std::set<std::string> k_units{"mm",  "mm²",   "mm³", "ms", "rpm", "min",  "kHz",  "Hz",  "MB",
-                                             "SHA", "Cavum", "UTC", "px", "PDF", "JSON", "TOML", "CSV", "Nm"};
+  static const std::set<std::string> k_units{"mm",  "mm²", "mm³",  "ms",   "rpm",   "min",
+                                             "kHz", "Hz",  "MB",   "SHA",  "Cavum", "UTC",
+                                             "px",  "PDF", "JSON", "TOML", "CSV",   "Nm"};
   std::string rest = without(without(text, "\u27e6", "\u27e7"), "\u27e8", "\u27e9");
   std::vector<std::string> words;
   std::string word;
   const auto end_word = [&] {
-    const auto letters = std::count_if(word.begin(), word.end(), [](unsigned char c) { return std::isalpha(c) != 0; });
-    const bool digit = std::any_of(word.begin(), word.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
-    const bool path =
-        word.find('/') != std::string::npos || word.find('_') != std::string::npos || (word.find('.') != std::string::npos && word.back() != '.');
-    while (!word.empty() && std::ispunct(static_cast<unsigned char>(word.back())) != 0) word.pop_back();
-    while (!word.empty() && std::ispunct(static_cast<unsigned char>(word.front())) != 0) word.erase(0, 1);
+    const auto letters = std::count_if(word.begin(), word.end(),
+                                       [](unsigned char c) { return std::isalpha(c) != 0; });
+    const bool digit =
+        std::any_of(word.begin(), word.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+    const bool path = word.find('/') != std::string::npos || word.find('_') != std::string::npos ||
+                      (word.find('.') != std::string::npos && word.back() != '.');
+    while (!word.empty() && std::ispunct(static_cast<unsigned char>(word.back())) != 0)
+      word.pop_back();
+    while (!word.empty() && std::ispunct(static_cast<unsigned char>(word.front())) != 0)
+      word.erase(0, 1);
     if (letters >= 2 && !digit && !path && !k_units.contains(word)) words.push_back(word);
     word.clear();
   };
@@ -59,11 +64,15 @@ std::string readable(const std::string& html) {
     const std::string tag = html.substr(open, close - open);
     for (const std::string label : {"aria-label='", "title='"})
       if (const auto from = tag.find(label); from != std::string::npos)
-        text += " " + tag.substr(from + label.size(), tag.find('\'', from + label.size()) - from - label.size()) + " ";
+        text += " " +
+                tag.substr(from + label.size(),
+                           tag.find('\'', from + label.size()) - from - label.size()) +
+                " ";
     at = close + 1;
     for (const std::string skipped : {"style", "script"})
       if (tag.starts_with("<" + skipped)) at = std::min(html.find("</" + skipped, at), html.size());
-    text += tag.starts_with("<bdi") || tag.starts_with("</bdi") || tag.starts_with("<tspan") ? "" : "\n";
+    text += tag.starts_with("<bdi") || tag.starts_with("</bdi") || tag.starts_with("<tspan") ? ""
+                                                                                             : "\n";
   }
   for (const auto& [reference, sign] : {std::pair<std::string, std::string>{"&#39;", "'"},
                                         {"&quot;", "\""},
@@ -72,7 +81,9 @@ std::string readable(const std::string& html) {
                                         {"&#8594;", ""},
                                         {"&#8593;", ""},
                                         {"&amp;", "&"}})
-    for (std::size_t at = text.find(reference); at != std::string::npos; at = text.find(reference, at)) text.replace(at, reference.size(), sign);
+    for (std::size_t at = text.find(reference); at != std::string::npos;
+         at = text.find(reference, at))
+      text.replace(at, reference.size(), sign);
   return text;
 }
 

@@ -1,5 +1,6 @@
-// Checkpoints, cosigners, backups by the commands of the README, and the verifier that ships, which needs nothing of ours: run as it stands on what
-// the program wrote, and on what somebody made of it.
+// Checkpoints, cosigners, backups by the commands of the README, and the verifier that ships, which
+// needs nothing of ours: run as it stands on what the program wrote, and on what somebody made of
+// it.
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -21,10 +22,12 @@ class LedgerNotes : public testing_ui::Program {
     ticket("4712");
   }
   void ticket(const std::string& who) const {
-    ASSERT_EQ(run("ledger ticket " + path("L") + " " + CAVUM_SOURCE_DIR + "/tests/replay/block_cavity.toml --candidate " + who +
-                  " --from 2020-01-01T00:00Z --until 2190-01-01T00:00Z --out " + path(who + ".ticket"))
-                  .exit_code,
-              0);
+    ASSERT_EQ(
+        run("ledger ticket " + path("L") + " " + CAVUM_SOURCE_DIR +
+            "/tests/replay/block_cavity.toml --candidate " + who +
+            " --from 2020-01-01T00:00Z --until 2190-01-01T00:00Z --out " + path(who + ".ticket"))
+            .exit_code,
+        0);
   }
   std::string school_key() const { return read_text_file(path("home/school.pub")).substr(0, 64); }
   /// As on another computer: with a home of its own.
@@ -36,8 +39,10 @@ class LedgerNotes : public testing_ui::Program {
   }
   /// Has the ledger cosigned and keeps that; returns the cosigner's key line.
   std::string have_cosigned(const std::string& name) const {
-    EXPECT_EQ(run("ledger checkpoint " + path("L") + " --out " + path(name + ".request")).exit_code, 0);
-    const auto r = elsewhere("ledger cosign " + path(name + ".request") + " --school-key " + school_key() + " --out " + path(name) + " --json");
+    EXPECT_EQ(run("ledger checkpoint " + path("L") + " --out " + path(name + ".request")).exit_code,
+              0);
+    const auto r = elsewhere("ledger cosign " + path(name + ".request") + " --school-key " +
+                             school_key() + " --out " + path(name) + " --json");
     EXPECT_EQ(r.exit_code, 0) << r.out << r.err;
     const std::string key = json::parse(r.out)["cosigner"];
     write_text_file(path("home/cosigners"), "# who signs our ledger\n" + key + "\n");
@@ -47,16 +52,20 @@ class LedgerNotes : public testing_ui::Program {
   /// Exit code of the verifier that ships, on a receipt.
   int verify(const json& receipt, const std::string& more) const {
     write_text_file(path("r.json"), receipt.dump());
-    const int status = std::system(
-        ("python3 " + std::string(CAVUM_SOURCE_DIR) + "/docs/verify_receipt.py " + path("r.json") + " " + more + " >" + path("said") + " 2>&1")
-            .c_str());
+    const int status =
+        std::system(("python3 " + std::string(CAVUM_SOURCE_DIR) + "/docs/verify_receipt.py " +
+                     path("r.json") + " " + more + " >" + path("said") + " 2>&1")
+                        .c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 };
 
 TEST_F(LedgerNotes, TheVerifierThatShipsChecksReceiptsWithoutUs) {
   const std::string cosigner = have_cosigned("n1");
-  ASSERT_EQ(run("ledger receipt " + path("L") + " --entry 1 --from-size 2 --out " + path("receipt.json")).exit_code, 0);
+  ASSERT_EQ(
+      run("ledger receipt " + path("L") + " --entry 1 --from-size 2 --out " + path("receipt.json"))
+          .exit_code,
+      0);
   const json sound = json::parse(read_text_file(path("receipt.json")));
   const std::string ours = school_key() + " '" + cosigner + "'";
   ASSERT_EQ(verify(sound, school_key()), 0) << read_text_file(path("said"));
@@ -64,17 +73,21 @@ TEST_F(LedgerNotes, TheVerifierThatShipsChecksReceiptsWithoutUs) {
   for (int entry = 0; entry < 3; ++entry)
     for (int from = 0; from <= 3; ++from) {
       const std::string file = path("r-" + std::to_string(entry) + "-" + std::to_string(from));
-      ASSERT_EQ(run("ledger receipt " + path("L") + " --entry " + std::to_string(entry) + " --from-size " + std::to_string(from) + " --out " + file)
+      ASSERT_EQ(run("ledger receipt " + path("L") + " --entry " + std::to_string(entry) +
+                    " --from-size " + std::to_string(from) + " --out " + file)
                     .exit_code,
                 0);
-      EXPECT_EQ(verify(json::parse(read_text_file(file)), ours), 0) << entry << " " << from << read_text_file(path("said"));
+      EXPECT_EQ(verify(json::parse(read_text_file(file)), ours), 0)
+          << entry << " " << from << read_text_file(path("said"));
     }
 
   // in a note, in its lines: text 0 to 3, empty, the school's signature, the cosigner's
-  const auto edit_line = [](const json& note, std::size_t line, const std::function<void(std::string&)>& change) {
+  const auto edit_line = [](const json& note, std::size_t line,
+                            const std::function<void(std::string&)>& change) {
     std::vector<std::string> lines;
     std::string text = note;
-    for (std::size_t from = 0; from < text.size(); from = text.find('\n', from) + 1) lines.push_back(text.substr(from, text.find('\n', from) - from));
+    for (std::size_t from = 0; from < text.size(); from = text.find('\n', from) + 1)
+      lines.push_back(text.substr(from, text.find('\n', from) - from));
     change(lines.at(line));
     text.clear();
     for (const auto& l : lines) text += l + "\n";
@@ -100,23 +113,48 @@ TEST_F(LedgerNotes, TheVerifierThatShipsChecksReceiptsWithoutUs) {
       {"another hash on the way", [&](json& r) { swap_hex(r["inclusion"][0]); }},
       {"a hash too many", [](json& r) { r["inclusion"].push_back(r["inclusion"][0]); }},
       {"a hash too few", [](json& r) { r["inclusion"].erase(0); }},
-      {"another size", [&](json& r) { r["checkpoint"] = edit_line(r["checkpoint"], 1, [](std::string& l) { l = "4"; }); }},
-      {"another root", [&](json& r) { r["checkpoint"] = edit_line(r["checkpoint"], 2, [&](std::string& l) { other_digit(l, 5); }); }},
+      {"another size",
+       [&](json& r) {
+         r["checkpoint"] = edit_line(r["checkpoint"], 1, [](std::string& l) { l = "4"; });
+       }},
+      {"another root",
+       [&](json& r) {
+         r["checkpoint"] =
+             edit_line(r["checkpoint"], 2, [&](std::string& l) { other_digit(l, 5); });
+       }},
       {"another time",
-       [&](json& r) { r["checkpoint"] = edit_line(r["checkpoint"], 3, [&](std::string& l) { l.back() = l.back() == '1' ? '2' : '1'; }); }},
+       [&](json& r) {
+         r["checkpoint"] = edit_line(
+             r["checkpoint"], 3, [&](std::string& l) { l.back() = l.back() == '1' ? '2' : '1'; });
+       }},
       {"another signature of the school",
-       [&](json& r) { r["checkpoint"] = edit_line(r["checkpoint"], 5, [&](std::string& l) { other_digit(l, 9); }); }},
+       [&](json& r) {
+         r["checkpoint"] =
+             edit_line(r["checkpoint"], 5, [&](std::string& l) { other_digit(l, 9); });
+       }},
       {"a cosignature of another moment",
-       [&](json& r) { r["checkpoint"] = edit_line(r["checkpoint"], 6, [&](std::string& l) { other_digit(l, 92); }); }},
+       [&](json& r) {
+         r["checkpoint"] =
+             edit_line(r["checkpoint"], 6, [&](std::string& l) { other_digit(l, 92); });
+       }},
       {"a cosigner's signature changed",
-       [&](json& r) { r["checkpoint"] = edit_line(r["checkpoint"], 6, [&](std::string& l) { other_digit(l, 9); }); }},
+       [&](json& r) {
+         r["checkpoint"] =
+             edit_line(r["checkpoint"], 6, [&](std::string& l) { other_digit(l, 9); });
+       }},
       {"a cosigner's line taken out",
-       [&](json& r) { r["checkpoint"] = edit_line(r["checkpoint"], 6, [](std::string& l) { l = "— x AAAAAAAAAAA="; }); }},
+       [&](json& r) {
+         r["checkpoint"] =
+             edit_line(r["checkpoint"], 6, [](std::string& l) { l = "— x AAAAAAAAAAA="; });
+       }},
       {"another ledger", [](json& r) { r["ledger"] = std::string(32, 'a'); }},
       {"a beginning with another hash", [&](json& r) { swap_hex(r["consistency"]["proof"][0]); }},
       {"a beginning of another size", [&](json& r) { r["consistency"]["from"] = r["checkpoint"]; }},
       {"a beginning of another root",
-       [&](json& r) { r["consistency"]["from"] = edit_line(r["consistency"]["from"], 2, [&](std::string& l) { other_digit(l, 5); }); }},
+       [&](json& r) {
+         r["consistency"]["from"] =
+             edit_line(r["consistency"]["from"], 2, [&](std::string& l) { other_digit(l, 5); });
+       }},
       {"no proof at all", [](json& r) { r = json::object(); }},
   };
   for (const auto& [name, change] : tampered) {
@@ -124,17 +162,23 @@ TEST_F(LedgerNotes, TheVerifierThatShipsChecksReceiptsWithoutUs) {
     change(r);
     ASSERT_NE(r, sound) << name;
     EXPECT_EQ(verify(r, ours), 1) << name << ": " << read_text_file(path("said"));
-    if (name.find("cosign") != std::string::npos) continue;  // ours says so of what the ledger holds, or of --cosigned
-    EXPECT_EQ(run("ledger verify " + path("L") + " --receipt " + path("r.json")).exit_code, 1) << name << ": our own says the same";
+    if (name.find("cosign") != std::string::npos)
+      continue;  // ours says so of what the ledger holds, or of --cosigned
+    EXPECT_EQ(run("ledger verify " + path("L") + " --receipt " + path("r.json")).exit_code, 1)
+        << name << ": our own says the same";
   }
   EXPECT_EQ(verify(sound, std::string(64, 'a')), 1) << "another school's key";
-  EXPECT_EQ(verify(sound, school_key() + " 'cavum.cosigner/else+" + cosigner.substr(cosigner.find('+') + 1) + "'"), 1)
+  EXPECT_EQ(verify(sound, school_key() + " 'cavum.cosigner/else+" +
+                              cosigner.substr(cosigner.find('+') + 1) + "'"),
+            1)
       << "somebody who has not signed";
 }
 
 TEST_F(LedgerNotes, ACosignerRefusesALedgerThatWasPutBack) {
-  const std::string witness = path("home/witness/") + run_json("ledger show " + path("L"))["ledger"].get<std::string>();
-  const std::string old_ledger = read_text_file(path("L/ledger.db")), old_witness = read_text_file(witness);
+  const std::string witness =
+      path("home/witness/") + run_json("ledger show " + path("L"))["ledger"].get<std::string>();
+  const std::string old_ledger = read_text_file(path("L/ledger.db")),
+                    old_witness = read_text_file(witness);
   ticket("4713");
   have_cosigned("n1");
   EXPECT_EQ(run("ledger verify " + path("L") + " --cosigned " + path("n1")).exit_code, 0);
@@ -148,7 +192,8 @@ TEST_F(LedgerNotes, ACosignerRefusesALedgerThatWasPutBack) {
   EXPECT_EQ(finding["group"], "older_copy");
   for (const std::string& told : {path("n1"), std::string(" 3 "), std::string(" 4")})
     EXPECT_NE(finding.dump().find(told), std::string::npos) << finding;
-  EXPECT_EQ(run("ledger add-cosignature " + path("L") + " " + path("n1")).exit_code, 1) << "it is not kept";
+  EXPECT_EQ(run("ledger add-cosignature " + path("L") + " " + path("n1")).exit_code, 1)
+      << "it is not kept";
   // and the cosigner neither signs the older copy nor what grew from it
   ASSERT_EQ(run("ledger checkpoint " + path("L") + " --out " + path("older")).exit_code, 0);
   const auto smaller = elsewhere("ledger cosign " + path("older") + " --out " + path("n2"));
@@ -156,13 +201,16 @@ TEST_F(LedgerNotes, ACosignerRefusesALedgerThatWasPutBack) {
   EXPECT_FALSE(fs::exists(path("n2")));
   ticket("4714");
   ticket("4715");
-  ASSERT_EQ(run("ledger checkpoint " + path("L") + " --since 4 --out " + path("grown")).exit_code, 0);
-  EXPECT_EQ(elsewhere("ledger cosign " + path("grown") + " --out " + path("n2")).exit_code, 1) << "its history was rewritten";
+  ASSERT_EQ(run("ledger checkpoint " + path("L") + " --since 4 --out " + path("grown")).exit_code,
+            0);
+  EXPECT_EQ(elsewhere("ledger cosign " + path("grown") + " --out " + path("n2")).exit_code, 1)
+      << "its history was rewritten";
   EXPECT_FALSE(fs::exists(path("n2")));
 }
 
 TEST_F(LedgerNotes, SayWhatIsWrongAndWhere) {
-  const std::string L = path("L"), c = path("c"), n = path("n"), known = " --school-key " + school_key();
+  const std::string L = path("L"), c = path("c"), n = path("n"),
+                    known = " --school-key " + school_key();
   const std::string cosign = "cosign " + c + " --key " + path("k") + " --state " + path("s");
   ASSERT_EQ(run("ledger checkpoint " + L + " --out " + c).exit_code, 0);
   expect_refused("ledger " + cosign + " --out " + n, {c});
@@ -188,17 +236,20 @@ TEST_F(LedgerNotes, SayWhatIsWrongAndWhere) {
 }
 
 TEST_F(LedgerNotes, ABackupIsRestoredAndSaysWhatWasLost) {
-  const json taken = run_json("ledger backup " + path("L") + " --with-identities --out " + path("B"));
+  const json taken =
+      run_json("ledger backup " + path("L") + " --with-identities --out " + path("B"));
   EXPECT_EQ(taken["entries"], 3);
   EXPECT_EQ(taken["identities"], true);
   ticket("4713");
   ASSERT_EQ(run("ledger receipt " + path("L") + " --entry 3 --out " + path("r.json")).exit_code, 0);
   fs::remove_all(path("L"));
-  const std::string restore = "ledger restore " + path("B") + " --receipt " + path("r.json") + " --out " + path("L2");
+  const std::string restore =
+      "ledger restore " + path("B") + " --receipt " + path("r.json") + " --out " + path("L2");
   const auto told = run(restore + " --json");
   EXPECT_EQ(told.exit_code, 1) << told.err;
   EXPECT_EQ(json::parse(told.out)["restored"], false) << told.out;
-  EXPECT_EQ(json::parse(told.out)["lost"].size(), 2u) << "entry 3, by the witness and by the receipt: " << told.out;
+  EXPECT_EQ(json::parse(told.out)["lost"].size(), 2u)
+      << "entry 3, by the witness and by the receipt: " << told.out;
   EXPECT_FALSE(fs::exists(path("L2")));
   const json done = run_json(restore + " --accept-loss 'the disk died'");
   EXPECT_EQ(done["restored"], true);
@@ -206,7 +257,8 @@ TEST_F(LedgerNotes, ABackupIsRestoredAndSaysWhatWasLost) {
   EXPECT_EQ(remark["group"], "restored");
   EXPECT_NE(remark["text"].get<std::string>().find("the disk died"), std::string::npos) << remark;
   EXPECT_NE(run("ledger candidates " + path("L2")).out.find("4711"), std::string::npos);
-  EXPECT_EQ(run("ledger ticket " + path("L2") + " " + CAVUM_SOURCE_DIR + "/tests/replay/block_cavity.toml --candidate 4714" +
+  EXPECT_EQ(run("ledger ticket " + path("L2") + " " + CAVUM_SOURCE_DIR +
+                "/tests/replay/block_cavity.toml --candidate 4714" +
                 " --from 2020-01-01T00:00Z --until 2190-01-01T00:00Z --out " + path("t"))
                 .exit_code,
             0)

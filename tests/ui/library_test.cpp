@@ -1,5 +1,6 @@
-// The tasks that ship: each is sound, leaves the expert time, is passed by him and failed by the careless candidate for the very
-// reason that the scenario names. From the files in data/scenarios to the verdict, in one process.
+// The tasks that ship: each is sound, leaves the expert time, is passed by him and failed by the
+// careless candidate for the very reason that the scenario names. From the files in data/scenarios
+// to the verdict, in one process.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,8 +24,8 @@ const std::string k_folder = std::string(CAVUM_SOURCE_DIR) + "/data/scenarios";
 
 /// For what a failed test prints.
 std::string told(const grading::Result& r) {
-  std::string all =
-      std::string(grading::verdict_name(r.verdict)) + ", " + std::to_string(r.points) + " points, " + finish_name(r.progress.finish) + "\n";
+  std::string all = std::string(grading::verdict_name(r.verdict)) + ", " +
+                    std::to_string(r.points) + " points, " + finish_name(r.progress.finish) + "\n";
   for (const auto& reason : r.verdict_reasons) all += "  " + english_text(reason.message()) + "\n";
   for (const auto& c : r.criteria) all += "  " + c.id + ": " + english_text(c.reason()) + "\n";
   return all;
@@ -39,15 +40,19 @@ class Library : public ::testing::TestWithParam<std::string> {
     return scenarios::prepare_exam(file(), options);
   }
   /// Recorded and read back.
-  [[nodiscard]] grading::Result taken_by(const std::string& who, const scenarios::ExamSetup& setup) const {
-    const std::uint64_t seed = testing_basics::drawn_seed(("Library." + who + "." + GetParam()).c_str()) % 100000;
-    scenarios::SimulatedCandidate candidate = scenarios::make_simulated_candidate(setup, who, seed, OmniModel{});
+  [[nodiscard]] grading::Result taken_by(const std::string& who,
+                                         const scenarios::ExamSetup& setup) const {
+    const std::uint64_t seed =
+        testing_basics::drawn_seed(("Library." + who + "." + GetParam()).c_str()) % 100000;
+    scenarios::SimulatedCandidate candidate =
+        scenarios::make_simulated_candidate(setup, who, seed, OmniModel{});
     const std::string session = folder_.file(who + "-" + std::to_string(seed) + ".cavum");
     const auto exam = scenarios::Exam::start(setup, session, candidate.start_mm());
     scenarios::run_exam(*exam, candidate);
     exam->recorder().flush();
     grading::ExamContexts grounds(setup);
-    const auto graded = grading::load_for_grading(SessionReader(session), exam->tooth_now(), grounds);
+    const auto graded =
+        grading::load_for_grading(SessionReader(session), exam->tooth_now(), grounds);
     grading::GradeInput input = graded->input();
     input.again = nullptr;  // how much force a perforation took away is not asked here
     grading::Result r = grading::grade(input, graded->rubric);
@@ -79,7 +84,8 @@ TEST_P(TakenTask, IsPassedByTheExpertAndFailedByTheCarelessForTheReasonItNames) 
   EXPECT_EQ(expert.verdict, grading::Verdict::pass) << told(expert);
   EXPECT_GE(expert.points, 90) << told(expert);
   for (const auto& c : expert.criteria)
-    EXPECT_DOUBLE_EQ(c.work_share, 1) << "who does it well is not credited with it: " << c.id << ", " << english_text(c.reason());
+    EXPECT_DOUBLE_EQ(c.work_share, 1)
+        << "who does it well is not credited with it: " << c.id << ", " << english_text(c.reason());
   EXPECT_EQ(expert.progress.finish, Finish::completed) << told(expert);
 
   const std::string reason = setup->scenario.careless.fails_by;
@@ -87,7 +93,8 @@ TEST_P(TakenTask, IsPassedByTheExpertAndFailedByTheCarelessForTheReasonItNames) 
   const grading::Result careless = taken_by("careless", *setup);
   EXPECT_EQ(careless.verdict, grading::Verdict::fail) << told(careless);
   EXPECT_NE(careless.progress.finish, Finish::time) << "failed by a time-out instead";
-  const auto c = std::find_if(careless.criteria.begin(), careless.criteria.end(), [&](const auto& one) { return one.id == reason; });
+  const auto c = std::find_if(careless.criteria.begin(), careless.criteria.end(),
+                              [&](const auto& one) { return one.id == reason; });
   ASSERT_NE(c, careless.criteria.end());
   EXPECT_TRUE(c->critical_failed) << told(careless);
   EXPECT_DOUBLE_EQ(c->points, 0) << told(careless);
@@ -107,8 +114,11 @@ TEST_P(Library, AnyPerforationThatIsAFaultIsCritical) {
   EXPECT_FALSE(against_perforation(s).empty()) << "who perforates would pass";
 }
 
-INSTANTIATE_TEST_SUITE_P(Tasks, Library, ::testing::ValuesIn(testing_basics::toml_names(k_folder)), [](const auto& test) { return test.param; });
-INSTANTIATE_TEST_SUITE_P(Tasks, TakenTask, ::testing::ValuesIn(testing_basics::some_of(testing_basics::toml_names(k_folder), 3, "TakenTask")),
+INSTANTIATE_TEST_SUITE_P(Tasks, Library, ::testing::ValuesIn(testing_basics::toml_names(k_folder)),
+                         [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(Tasks, TakenTask,
+                         ::testing::ValuesIn(testing_basics::some_of(
+                             testing_basics::toml_names(k_folder), 3, "TakenTask")),
                          [](const auto& test) { return test.param; });
 
 /// Where nobody would look for a pulp.
@@ -119,9 +129,11 @@ TEST_P(BlockTask, WhoPerforatesFails) {
   const grading::Result r = taken_by("perforator", *setup);
   ASSERT_TRUE(r.perforation.fault.perforated) << told(r);
   EXPECT_EQ(r.verdict, grading::Verdict::fail) << told(r);
-  for (const auto& c : r.criteria) EXPECT_TRUE(c.metric != "perforated" || c.critical_failed) << told(r);
+  for (const auto& c : r.criteria)
+    EXPECT_TRUE(c.metric != "perforated" || c.critical_failed) << told(r);
 }
-INSTANTIATE_TEST_SUITE_P(Tasks, BlockTask, ::testing::Values("slot", "cross"), [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(Tasks, BlockTask, ::testing::Values("slot", "cross"),
+                         [](const auto& test) { return test.param; });
 
 }  // namespace
 }  // namespace cavum::ui

@@ -1,4 +1,5 @@
-// `cavum cohort difficulty`: whether the forms of an exam, one task on several teeth, are equally hard.
+// `cavum cohort difficulty`: whether the forms of an exam, one task on several teeth, are equally
+// hard.
 #pragma once
 
 #include "ui/parts/option_checks.h"

@@ -1,4 +1,5 @@
-// What is wrong with a command line. CLI11 says it in English, and knows only which kind of mistake it is: which option it is about is looked up.
+// What is wrong with a command line. CLI11 says it in English, and knows only which kind of mistake
+// it is: which option it is about is looked up.
 #pragma once
 
 #include <string>
@@ -13,7 +14,8 @@ namespace cavum::ui {
 CAVUM_NAMED_ENUM(CommandLineError, CAVUM_COMMAND_LINE_ERRORS)
 
 /// `app` as the parser left it when it threw.
-[[nodiscard]] Error command_line_error(const CLI::ParseError& error, const CLI::App& app, const std::vector<std::string>& arguments);
+[[nodiscard]] Error command_line_error(const CLI::ParseError& error, const CLI::App& app,
+                                       const std::vector<std::string>& arguments);
 
 /// Of a first argument that is no verb.
 [[nodiscard]] Error no_verb(const std::string& name);

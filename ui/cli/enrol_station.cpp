@@ -20,12 +20,16 @@ MotionSource stylus(const std::string& id) {
 }  // namespace
 
 void enrol_station(const EnrolOptions& o) {
-  if (o.replace_key && !o.code.empty()) throw Error(Name{"--replace-key"}, msg("was asked for together with --enrol"), msg("give one of them"));
+  if (o.replace_key && !o.code.empty())
+    throw Error(Name{"--replace-key"}, msg("was asked for together with --enrol"),
+                msg("give one of them"));
   const std::string school = records::station_school_key();
   if (school.empty())
     throw Error(Name{records::school_public_key_path()}, msg("this station knows no school yet"),
                 msg("copy the school's public key there: `cavum ledger init` writes it"));
-  if (std::filesystem::is_directory(o.out)) throw Error(Name{"--out " + o.out}, msg("is a folder"), msg("name the file to write the request to"));
+  if (std::filesystem::is_directory(o.out))
+    throw Error(Name{"--out " + o.out}, msg("is a folder"),
+                msg("name the file to write the request to"));
   require_writable(o.out);
   std::vector<MotionSource> devices;
   for (const auto& id : o.styluses) devices.push_back(stylus(id));

@@ -1,4 +1,5 @@
-// A station asks to be enrolled by the school, with a one-time code or in place of its old key: `cavum station --enrol | --replace-key`.
+// A station asks to be enrolled by the school, with a one-time code or in place of its old key:
+// `cavum station --enrol | --replace-key`.
 #pragma once
 
 #include <string>
@@ -7,8 +8,9 @@
 namespace cavum::ui {
 
 struct EnrolOptions {
-  std::string code;          ///< that the school gave
-  bool replace_key = false;  ///< instead of a code: make a new key, and let the old one speak for it
+  std::string code;  ///< that the school gave
+  bool replace_key =
+      false;  ///< instead of a code: make a new key, and let the old one speak for it
   std::vector<std::string> styluses;
   std::string out;  ///< request to write
 };

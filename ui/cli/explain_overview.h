@@ -1,4 +1,5 @@
-// `cavum explain --dry-run`: what was understood of a recording, and the page with its plots. And the options by which a recording of others is read.
+// `cavum explain --dry-run`: what was understood of a recording, and the page with its plots. And
+// the options by which a recording of others is read.
 #pragma once
 
 #include <memory>
@@ -23,7 +24,10 @@ struct ReadingArgs {
 void add_reading_options(CLI::App& verb, ReadingArgs& args);
 /// Throws Error(option, ...) for one that is not of the form NAME=VALUE.
 [[nodiscard]] explain::ReadingOptions reading_options(const ReadingArgs& args);
-/// Force over position, force and position over time, and what was understood in words. `title`: the recording's name.
-[[nodiscard]] std::string overview_html(const explain::Recording& recording, const explain::Overview& overview, const std::string& title);
+/// Force over position, force and position over time, and what was understood in words. `title`:
+/// the recording's name.
+[[nodiscard]] std::string overview_html(const explain::Recording& recording,
+                                        const explain::Overview& overview,
+                                        const std::string& title);
 
 }  // namespace cavum::ui

@@ -59,8 +59,10 @@ std::string gain_chart(const explain::Gain& g) {
   const auto bar = [&](const Message& name, double value, const char* colour) {
     return bar_row(name, value / most, colour, msg("{}", as_n(value, 4)));
   };
-  return fmt::format("<table class=\"bars\">{}{}{}</table>\n", bar(msg("simulation as it is"), g.base_rmse_n, k_before),
-                     bar(msg("with the causes"), g.extended_rmse_n, k_after), bar(msg("noise of the measurement"), g.noise_floor_n, k_measured));
+  return fmt::format("<table class=\"bars\">{}{}{}</table>\n",
+                     bar(msg("simulation as it is"), g.base_rmse_n, k_before),
+                     bar(msg("with the causes"), g.extended_rmse_n, k_after),
+                     bar(msg("noise of the measurement"), g.noise_floor_n, k_measured));
 }
 
 /// A file's name, which may break behind its slashes.
@@ -76,15 +78,19 @@ std::string verdict_box(const explain::Explanation& e, const Message& words) {
     if (c.probability <= 0.0) continue;  // a table of means gives none
     const cavum::Term cause{explain::mechanism_at(c.term.mechanism).words};
     causes.push_back(c.aliases.empty() ? msg("{}: {}", cause, as_percent(100.0 * c.probability))
-                                       : msg("{}, or one that fits as well: {}", cause, as_percent(100.0 * c.set_probability)));
+                                       : msg("{}, or one that fits as well: {}", cause,
+                                             as_percent(100.0 * c.set_probability)));
   }
-  if (e.unexplained && !causes.empty()) causes.push_back(msg("something that no mechanism here describes"));
-  return fmt::format("<div class=\"verdict\" data-verdict=\"{}\"><b>{}</b><br>{}{}</div>\n", verdict_name(e.verdict), html(word_of(e.verdict)),
-                     html(words), causes.empty() ? "" : list(causes));
+  if (e.unexplained && !causes.empty())
+    causes.push_back(msg("something that no mechanism here describes"));
+  return fmt::format("<div class=\"verdict\" data-verdict=\"{}\"><b>{}</b><br>{}{}</div>\n",
+                     verdict_name(e.verdict), html(word_of(e.verdict)), html(words),
+                     causes.empty() ? "" : list(causes));
 }
 
 std::string next_box(const explain::Explanation& e) {
-  return fmt::format("{}<p class=\"next\">{}</p>\n", heading(msg("The next experiment")), html(e.next_experiment.what()));
+  return fmt::format("{}<p class=\"next\">{}</p>\n", heading(msg("The next experiment")),
+                     html(e.next_experiment.what()));
 }
 
 /// What the cause gains on each session that the fit had not seen.
@@ -92,11 +98,12 @@ std::string sessions_table(const explain::Explanation& e, const explain::Cause& 
   const std::vector<Message> names = fold_names(e);
   double most = 1e-9;
   for (const double g : c.by_fold_percent) most = std::max(most, std::fabs(g));
-  std::string out =
-      fmt::format("<table class=\"bars sessions\"><caption>{}</caption>", html(msg("Error that it takes away from each session not seen")));
+  std::string out = fmt::format("<table class=\"bars sessions\"><caption>{}</caption>",
+                                html(msg("Error that it takes away from each session not seen")));
   for (std::size_t f = 0; f < names.size() && f < c.by_fold_percent.size(); ++f) {
     const double g = c.by_fold_percent[f];
-    out += bar_row(names[f], std::fabs(g) / most, g < 0.0 ? k_before : k_after, msg("{}", as_percent(g, 1)));
+    out += bar_row(names[f], std::fabs(g) / most, g < 0.0 ? k_before : k_after,
+                   msg("{}", as_percent(g, 1)));
   }
   return out + "</table>\n";
 }
@@ -107,10 +114,14 @@ std::string causes_html(const explain::Explanation& e) {
     const auto& m = explain::mechanism_at(c.term.mechanism);
     const std::string said = html(to_text(c));
     out += fmt::format("<h3>{}</h3>\n", html(heading_of(c)));
-    out += e.after ? fmt::format("<div class=\"pair\"><div>{}</div><div>{}{}</div></div>\n", cause_chart(c, *e.after), said, sessions_table(e, c))
+    out += e.after ? fmt::format("<div class=\"pair\"><div>{}</div><div>{}{}</div></div>\n",
+                                 cause_chart(c, *e.after), said, sessions_table(e, c))
                    : said;
-    out += paragraph(m.term != nullptr ? msg("An exam can feel it.") : msg("It belongs to this measurement, not to the tooth."));
-    if (m.separate != nullptr) out += fmt::format("<p class=\"next\">{}</p>\n", html(msg("To be surer: {}", cavum::Term{m.separate})));
+    out += paragraph(m.term != nullptr ? msg("An exam can feel it.")
+                                       : msg("It belongs to this measurement, not to the tooth."));
+    if (m.separate != nullptr)
+      out += fmt::format("<p class=\"next\">{}</p>\n",
+                         html(msg("To be surer: {}", cavum::Term{m.separate})));
   }
   if (e.unexplained) out += paragraph(unexplained_words(*e.unexplained));
   if (const Message left = left_over_words(e); !left.empty()) out += paragraph(left);
@@ -119,18 +130,24 @@ std::string causes_html(const explain::Explanation& e) {
 
 std::string cannot_tell(const explain::Explanation& e) {
   std::string out = heading(msg("What these data cannot tell"));
-  if (e.not_testable.empty()) return out + paragraph(msg("Every mechanism could have shown itself."));
+  if (e.not_testable.empty())
+    return out + paragraph(msg("Every mechanism could have shown itself."));
   std::vector<std::pair<Message, std::vector<Message>>> by_reason;
   for (const auto& n : e.not_testable) {
     const auto& m = explain::mechanism_at(explain::known_mechanism(n.mechanism));
-    auto group = std::find_if(by_reason.begin(), by_reason.end(), [&](const auto& r) { return r.first == n.reason; });
+    auto group = std::find_if(by_reason.begin(), by_reason.end(),
+                              [&](const auto& r) { return r.first == n.reason; });
     if (group == by_reason.end()) group = by_reason.insert(group, {n.reason, {}});
-    group->second.push_back(msg("{} ({}): {}", cavum::Term{m.words}, m.name, cavum::Term{m.separate}));
+    group->second.push_back(
+        msg("{} ({}): {}", cavum::Term{m.words}, m.name, cavum::Term{m.separate}));
   }
   for (const auto& [reason, group] : by_reason) {
     const auto n = static_cast<std::int64_t>(group.size());
-    out += fmt::format("<p><b>{}</b></p>\n<details{}><summary>{}</summary>\n{}</details>\n", html(reason), n > 8 ? "" : " open",
-                       html(msgn("{} mechanism, and what would show it", "{} mechanisms, and what would show them", n, n)), list(group));
+    out += fmt::format("<p><b>{}</b></p>\n<details{}><summary>{}</summary>\n{}</details>\n",
+                       html(reason), n > 8 ? "" : " open",
+                       html(msgn("{} mechanism, and what would show it",
+                                 "{} mechanisms, and what would show them", n, n)),
+                       list(group));
   }
   return out;
 }
@@ -139,21 +156,25 @@ std::string cannot_tell(const explain::Explanation& e) {
 std::string candidates_html(const explain::Explanation& e) {
   constexpr std::size_t k_shown = 8;
   auto candidates = e.candidates;
-  std::sort(candidates.begin(), candidates.end(),
-            [](const auto& a, const auto& b) { return std::pair(a.testable, a.gain) > std::pair(b.testable, b.gain); });
+  std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.testable, a.gain) > std::pair(b.testable, b.gain);
+  });
   const std::string begin =
-      fmt::format("<table><thead><tr><th>{}</th><th class=\"n\">{}</th></tr></thead>\n", html(msg("mechanism")), html(msg("fall of chi²")));
+      fmt::format("<table><thead><tr><th>{}</th><th class=\"n\">{}</th></tr></thead>\n",
+                  html(msg("mechanism")), html(msg("fall of chi²")));
   std::string shown = begin, rest = begin;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const auto& m = explain::mechanism_at(candidates[i].hypothesis.term.mechanism);
-    (i < k_shown ? shown : rest) +=
-        fmt::format("<tr><td>{}</td><td class=\"n\">{}</td></tr>\n", html(msg("{} ({})", cavum::Term{m.words}, m.name)),
-                    html(candidates[i].testable ? msg("{}", as_number(std::max(0.0, candidates[i].gain), 0)) : msg("not testable")));
+    (i < k_shown ? shown : rest) += fmt::format(
+        "<tr><td>{}</td><td class=\"n\">{}</td></tr>\n",
+        html(msg("{} ({})", cavum::Term{m.words}, m.name)),
+        html(candidates[i].testable ? msg("{}", as_number(std::max(0.0, candidates[i].gain), 0))
+                                    : msg("not testable")));
   }
   std::string out = heading(msg("What each mechanism would gain alone")) + shown + "</table>\n";
   if (candidates.size() > k_shown)
-    out += fmt::format("<details><summary>{}</summary>\n{}</table></details>\n", html(msg("the other mechanisms: {}", candidates.size() - k_shown)),
-                       rest);
+    out += fmt::format("<details><summary>{}</summary>\n{}</table></details>\n",
+                       html(msg("the other mechanisms: {}", candidates.size() - k_shown)), rest);
   return out;
 }
 
@@ -198,16 +219,20 @@ std::string page_html(const std::string& title, const std::string& content) {
 
 std::string explanation_html(const explain::Explanation& e, const std::string& title) {
   std::string out = verdict_box(e, in_words(e));
-  if (e.verdict == Verdict::data_fault) return page_html(title, out + list(texts_of(e.data_faults)) + next_box(e));
+  if (e.verdict == Verdict::data_fault)
+    return page_html(title, out + list(texts_of(e.data_faults)) + next_box(e));
   out += heading(msg("What the simulation gets wrong")) + causes_html(e);
-  out += heading(msg("What fixing it gains")) + paragraph(msg("Root mean square error on sessions that the fit had not seen.")) + gain_chart(e.gain) +
-         html(gain_words(e)) + next_box(e);
+  out += heading(msg("What fixing it gains")) +
+         paragraph(msg("Root mean square error on sessions that the fit had not seen.")) +
+         gain_chart(e.gain) + html(gain_words(e)) + next_box(e);
   if (e.before && e.after) {
     out += heading(msg("Measured against simulated")) + force_charts(*e.before, *e.after);
-    out += heading(msg("The residual against each suspect")) +
-           paragraph(msg("What moves the residual most comes first. Means over equal shares of the rows with two standard errors; all charts on one "
-                         "scale.")) +
-           "<div class=\"pair\">\n";
+    out +=
+        heading(msg("The residual against each suspect")) +
+        paragraph(msg(
+            "What moves the residual most comes first. Means over equal shares of the rows with two standard errors; all charts on one "
+            "scale.")) +
+        "<div class=\"pair\">\n";
     out += residual_charts(*e.before, *e.after);
     out += "</div>\n" + cannot_tell(e) + candidates_html(e);
   }
@@ -216,18 +241,26 @@ std::string explanation_html(const explain::Explanation& e, const std::string& t
 }
 
 std::string table_html(const explain::TableExplanation& e, const std::string& title) {
-  std::string out = verdict_box(e.said, in_words(e));
-  if (e.said.verdict == Verdict::data_fault) return page_html(title, out + list(texts_of(e.said.data_faults)) + next_box(e.said));
+  std::string out = verdict_box(e.explanation, in_words(e));
+  if (e.explanation.verdict == Verdict::data_fault)
+    return page_html(title,
+                     out + list(texts_of(e.explanation.data_faults)) + next_box(e.explanation));
   const double most = *std::max_element(e.table.k_n_per_mm.begin(), e.table.k_n_per_mm.end());
   Chart c;
   c.height_px = 360;
   c.width_px = k_narrow_px;
-  ChartSeries points{tr("the table"), "#222222", Style::dots, {}, 1.8}, line{tr("k X and an intercept"), k_after, Style::line, {}, 1.8},
+  ChartSeries points{tr("the table"), "#222222", Style::dots, {}, 1.8},
+      line{tr("k X and an intercept"), k_after, Style::line, {}, 1.8},
       voigt{tr("Voigt law alone, best fit: k X + c V, c ~ √k"), k_before, Style::dashed, {}, 1.8},
-      published{tr("published: k X at the line's slope, + c V with c = 2 √k"), k_third, Style::dashed, {}, 1.2};
+      published{tr("published: k X at the line's slope, + c V with c = 2 √k"),
+                k_third,
+                Style::dashed,
+                {},
+                1.2};
   double top = 0.0;
   for (std::size_t i = 0; i < e.table.f_n.size(); ++i)
-    points.points.push_back({e.table.k_n_per_mm[i], e.table.f_n[i]}), top = std::max(top, e.table.f_n[i]);
+    points.points.push_back({e.table.k_n_per_mm[i], e.table.f_n[i]}),
+        top = std::max(top, e.table.f_n[i]);
   for (int i = 0; i <= 120; ++i) {
     const double k = most * i / 120.0;
     line.points.push_back({k, e.line.at(k)});
@@ -239,9 +272,11 @@ std::string table_html(const explain::TableExplanation& e, const std::string& ti
   c.y_range = {0.0, 1.05 * top};
   c.x_range = {-0.03 * most, 1.03 * most};
   out += heading(msg("Measured against simulated")) +
-         fmt::format("<div class=\"alone\">{}</div>\n", figure(c, msg("force over stiffness"), msg("stiffness k, N/mm"), msg("force, N")));
-  out += html(law_rows(e)) + heading(msg("What it says, and what it cannot say")) + list(words_of(e.said.notes)) + next_box(e.said) +
-         cannot_tell(e.said);
+         fmt::format(
+             "<div class=\"alone\">{}</div>\n",
+             figure(c, msg("force over stiffness"), msg("stiffness k, N/mm"), msg("force, N")));
+  out += html(law_rows(e)) + heading(msg("What it says, and what it cannot say")) +
+         list(words_of(e.explanation.notes)) + next_box(e.explanation) + cannot_tell(e.explanation);
   return page_html(title, out);
 }
 
@@ -263,18 +298,23 @@ std::string protocol_html() {
           "simulation.")};
   std::string out =
       heading(msg("A recording from which causes can be told apart")) +
-      paragraph(msg("Six sessions of about a minute, each with the motion in the CSV file beside this page (height z above the surface; "
-                    "the first touch is z = 0). Sample force and position together, 200 times a second or faster; write the measured "
-                    "speed down too when the machine knows it: with a coarse encoder it is worth most.")) +
+      paragraph(msg(
+          "Six sessions of about a minute, each with the motion in the CSV file beside this page (height z above the surface; "
+          "the first touch is z = 0). Sample force and position together, 200 times a second or faster; write the measured "
+          "speed down too when the machine knows it: with a coarse encoder it is worth most.")) +
       "<ol>\n";
   for (const Message& step : steps) out += fmt::format("<li>{}</li>\n", with_code(step));
-  out += fmt::format("</ol>\n<p>{}</p>\n",
-                     with_code(msg("CSV columns: `session,t_s,x_mm,f_n` and any of `v_mm_s, spindle_rpm, wet, posture_deg, approach_deg, fy_n, fz_n, "
-                                   "removed_mm3, bur_id, site, layer, temperature_c`; any other numeric column is tried as an explanation too. Then: "
-                                   "`cavum explain recording.csv --out report.html`")));
+  out += fmt::format(
+      "</ol>\n<p>{}</p>\n",
+      with_code(msg(
+          "CSV columns: `session,t_s,x_mm,f_n` and any of `v_mm_s, spindle_rpm, wet, posture_deg, approach_deg, fy_n, fz_n, "
+          "removed_mm3, bur_id, site, layer, temperature_c`; any other numeric column is tried as an explanation too. Then: "
+          "`cavum explain recording.csv --out report.html`")));
   std::vector<Message> laws;
-  for (const auto& m : explain::mechanisms()) laws.push_back(msg("{} ({}): {}", cavum::Term{m.words}, m.name, cavum::Term{m.separate}));
-  return page_html(tr("Recording protocol for cavum explain"), out + heading(msg("What shows what")) + list(laws));
+  for (const auto& m : explain::mechanisms())
+    laws.push_back(msg("{} ({}): {}", cavum::Term{m.words}, m.name, cavum::Term{m.separate}));
+  return page_html(tr("Recording protocol for cavum explain"),
+                   out + heading(msg("What shows what")) + list(laws));
 }
 
 }  // namespace cavum::ui

@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-#include "scenarios/exam/other_place.h"
+#include "scenarios/exam/other_path.h"
 #include "ui/language/say.h"
 #include "ui/parts/say.h"
 
@@ -28,21 +28,26 @@ bool moved(scenarios::Exam& exam, const std::string& place, const DiskRefusal& w
 
 void RecordingWatch::begun(const std::string& path) {
   if (path == path_) return;
-  say_error(msg("{}: cannot be written, its disk is full or refuses; the whole exam is recorded at {}", path_, path));
+  say_error(
+      msg("{}: cannot be written, its disk is full or refuses; the whole exam is recorded at {}",
+          path_, path));
   path_ = path;
 }
 
 void RecordingWatch::look(const Message& problem, const std::string& path) {
   if (path != path_) {
     std::cerr << "\n";
-    say_error(msg("{}: cannot be written; recording goes on at {}, with all that was recorded before", path_, path));
+    say_error(
+        msg("{}: cannot be written; recording goes on at {}, with all that was recorded before",
+            path_, path));
     path_ = path;
     told_ = false;
   }
   if (!problem.empty() && !told_) {
     std::cerr << "\n";
     say_error(problem);
-    say_error(msg("the exam goes on: what is not on disk is kept in memory, and written as soon as there is room"));
+    say_error(msg(
+        "the exam goes on: what is not on disk is kept in memory, and written as soon as there is room"));
   }
   if (problem.empty() && told_) {
     std::cerr << "\n";
@@ -51,8 +56,9 @@ void RecordingWatch::look(const Message& problem, const std::string& path) {
   told_ = !problem.empty();
 }
 
-void write_somewhere(scenarios::Exam& exam, const std::string& second_place, const std::function<void()>& write) {
-  bool second_tried = second_place.empty(), nobody = false;
+void write_somewhere(scenarios::Exam& exam, const std::string& second_path,
+                     const std::function<void()>& write) {
+  bool second_tried = second_path.empty(), nobody = false;
   for (;;) {
     DiskRefusal why;
     try {
@@ -64,7 +70,7 @@ void write_somewhere(scenarios::Exam& exam, const std::string& second_place, con
     }
     if (!second_tried) {
       second_tried = true;
-      if (exam.recorder().path() == second_place || moved(exam, second_place, why)) continue;
+      if (exam.recorder().path() == second_path || moved(exam, second_path, why)) continue;
     }
     if (nobody)
       throw Error(Name{exam.recorder().path()}, msg("cannot be written, nor can any other place"),
@@ -78,12 +84,14 @@ void write_somewhere(scenarios::Exam& exam, const std::string& second_place, con
     if (!std::getline(std::cin, answer)) {
       std::cerr << "\n";
       nobody = true;
-      answer = scenarios::rescue_place(exam.recorder().path());
+      answer = scenarios::rescue_path(exam.recorder().path());
     }
     if (!answer.empty() && moved(exam, answer, why))
       say_error(
-          nobody ? msg("the whole exam is at {}, in the folder for temporary files: copy it from there before the computer is switched off", answer)
-                 : msg("the whole exam is at {}", answer));
+          nobody
+              ? msg("the whole exam is at {}, in the folder for temporary files: copy it from there before the computer is switched off",
+                    answer)
+              : msg("the whole exam is at {}", answer));
   }
 }
 

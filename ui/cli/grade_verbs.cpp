@@ -36,7 +36,8 @@ struct GradeArguments {
   bool json = false, measures = false;
 };
 
-/// The result with its contract names, and beside it the old one where another rubric or scenario was asked for.
+/// The result with its contract names, and beside it the old one where another rubric or scenario
+/// was asked for.
 Json json_of(const MarkedSession& g) {
   Json j = grading::with_words(grading::to_json(g.result));
   if (g.regrade) j["regrade"] = grading::to_json(*g.comparison);
@@ -44,7 +45,8 @@ Json json_of(const MarkedSession& g) {
 }
 
 void write_new(const std::string& path, const Json& grades) {
-  write_text_file(path, grades.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", {.may_replace = false});
+  write_text_file(path, grades.dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
+                  {.may_replace = false});
 }
 
 void say_regrade(const MarkedSession& g) {
@@ -57,7 +59,9 @@ void run_grade_one(const std::string& path, const GradeArguments& o) {
   grading::ExamContexts grounds;
   const MarkedSession g = marked_session(path, o.marking, grounds);
   if (!o.marking.rubric.empty())
-    for (const auto& p : scenarios::advise_rubric(g.session->scenario, g.rubric, *g.session->before, *g.session->zones)) say_error(p.message());
+    for (const auto& p : scenarios::advise_rubric(g.session->scenario, g.rubric, *g.session->before,
+                                                  *g.session->zones))
+      say_error(p.message());
   if (!o.why.empty()) {
     const grading::Why w = grading::why(g.session->input(), g.result, g.rubric, o.why);
     if (o.json) {
@@ -97,12 +101,15 @@ class GradedMany {
       for (const auto& d : c.criteria)
         if (std::fabs(d.difference()) >= 0.05 || !d.old_points || !d.new_points) {
           const Message one_more = msg("{} {}", d.id, signed_number(d.difference()));
-          changes_.add(d.why.empty() ? msg("{}: {}", file, one_more) : msg("{}: {}: {}", file, one_more, all_of(d.why)), 2);
+          changes_.add(d.why.empty() ? msg("{}: {}", file, one_more)
+                                     : msg("{}: {}: {}", file, one_more, all_of(d.why)),
+                       2);
         }
       ++verdicts_[{c.before.verdict, now}];
       one.update(grading::to_json(c));
     } else {
-      table_.row({msg("none"), cell(now, g.result.points, g.result.max_points), Message(), Name{file}}, 2);
+      table_.row(
+          {msg("none"), cell(now, g.result.points, g.result.max_points), Message(), Name{file}}, 2);
       one["old"] = nullptr;
       one["new"] = {{"verdict", now}, {"points", g.result.points}, {"max", g.result.max_points}};
       ++new_ones_;
@@ -119,8 +126,12 @@ class GradedMany {
   [[nodiscard]] Json json() const {
     Json counts = Json::object();
     for (const auto& [turn, count] : verdicts_)
-      counts[turn.first == turn.second ? "stay " + turn.second : fmt::format("{} -> {}", turn.first, turn.second)] = count;
-    return {{"sessions", list_}, {"graded", list_.size() - static_cast<std::size_t>(failed_)}, {"failed", failed_}, {"verdicts", counts}};
+      counts[turn.first == turn.second ? "stay " + turn.second
+                                       : fmt::format("{} -> {}", turn.first, turn.second)] = count;
+    return {{"sessions", list_},
+            {"graded", list_.size() - static_cast<std::size_t>(failed_)},
+            {"failed", failed_},
+            {"verdicts", counts}};
   }
   void say_all() const {
     say(table_);
@@ -129,8 +140,9 @@ class GradedMany {
     List sum;
     sum.items.push_back(msgn("{} session", "{} sessions", n, n));
     for (const auto& [turn, count] : verdicts_)
-      sum.items.push_back(turn.first == turn.second ? msgn("{} stays {}", "{} stay {}", count, count, Term{turn.second})
-                                                    : msg("{} {} -> {}", count, Term{turn.first}, Term{turn.second}));
+      sum.items.push_back(turn.first == turn.second
+                              ? msgn("{} stays {}", "{} stay {}", count, count, Term{turn.second})
+                              : msg("{} {} -> {}", count, Term{turn.first}, Term{turn.second}));
     if (new_ones_ > 0) sum.items.push_back(msg("{} without a sealed result", new_ones_));
     if (failed_ > 0) sum.items.push_back(msg("{} not graded", failed_));
     say(msg("{}", sum));
@@ -173,13 +185,16 @@ int run_grade(const GradeArguments& o) {
   }
   if (!o.out.empty()) {
     if (std::filesystem::exists(o.out))
-      throw Error(Name{o.out}, msg("exists already, and a result is never overwritten"), msg("choose another name"));
+      throw Error(Name{o.out}, msg("exists already, and a result is never overwritten"),
+                  msg("choose another name"));
     require_writable(o.out);
   }
   const auto files = session_files(o.sessions);
   const bool many = files.size() > 1 || std::filesystem::is_directory(o.sessions.front());
-  if (many || o.marking.rubric.empty()) require_sound_marking(o.marking);  // of one session more can be said, when it is there
-  if (many && !o.why.empty()) throw Error(Name{"--why"}, msg("explains one session"), msg("name one session file"));
+  if (many || o.marking.rubric.empty())
+    require_sound_marking(o.marking);  // of one session more can be said, when it is there
+  if (many && !o.why.empty())
+    throw Error(Name{"--why"}, msg("explains one session"), msg("name one session file"));
   if (many) return run_grade_many(files, o) > 0 ? 1 : 0;
   run_grade_one(files.front(), o);
   return 0;
@@ -189,14 +204,23 @@ int run_grade(const GradeArguments& o) {
 
 void add_grade_verbs(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<GradeArguments>();
-  auto* grades = app.add_subcommand("grade", tr("Mark recorded exams, by their own rubric or another, or by a corrected scenario"));
-  auto* sessions = grades->add_option("session", o->sessions, tr("session files (.cavum), or folders of them"))->required();
-  grades->add_option("--rubric", o->marking.rubric, tr("mark by this rubric (TOML) instead of the session's own"));
-  grades->add_option("--scenario", o->marking.scenario,
-                     tr("mark by this corrected scenario (TOML): its zones, and its rubric unless --rubric names one"));
-  grades->add_flag("--another-task", o->marking.another_task, tr("let --scenario be that of another task than the session's"));
-  grades->add_option("--why", o->why, tr("ticks, places and numbers behind each point that this criterion lost"));
-  grades->add_option("--out", o->out, tr("write the JSON to this file too, which must not exist yet"));
+  auto* grades = app.add_subcommand(
+      "grade",
+      tr("Mark recorded exams, by their own rubric or another, or by a corrected scenario"));
+  auto* sessions =
+      grades->add_option("session", o->sessions, tr("session files (.cavum), or folders of them"))
+          ->required();
+  grades->add_option("--rubric", o->marking.rubric,
+                     tr("mark by this rubric (TOML) instead of the session's own"));
+  grades->add_option(
+      "--scenario", o->marking.scenario,
+      tr("mark by this corrected scenario (TOML): its zones, and its rubric unless --rubric names one"));
+  grades->add_flag("--another-task", o->marking.another_task,
+                   tr("let --scenario be that of another task than the session's"));
+  grades->add_option("--why", o->why,
+                     tr("ticks, places and numbers behind each point that this criterion lost"));
+  grades->add_option("--out", o->out,
+                     tr("write the JSON to this file too, which must not exist yet"));
   grades
       ->add_flag_callback(
           "--measures",

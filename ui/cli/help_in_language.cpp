@@ -34,7 +34,8 @@ void help_in_language(CLI::App& app) {
 
 void group_help_flags(CLI::App& app) {
   app.get_help_ptr()->group(tr("Options"));
-  for (CLI::App* verb : app.get_subcommands([](CLI::App*) { return true; })) group_help_flags(*verb);
+  for (CLI::App* verb : app.get_subcommands([](CLI::App*) { return true; }))
+    group_help_flags(*verb);
 }
 
 }  // namespace cavum::ui

@@ -1,4 +1,5 @@
-// What CLI11 itself adds to the help of a verb, in the reader's language: headings, and the words for what an option takes.
+// What CLI11 itself adds to the help of a verb, in the reader's language: headings, and the words
+// for what an option takes.
 #pragma once
 
 #include "ui/parts/option_checks.h"

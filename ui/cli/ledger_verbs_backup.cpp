@@ -22,13 +22,16 @@ int ledger_backup(const LedgerOptions& o) {
                     {"identities", b.identities}});
   } else {
     const std::string when = utc_text(b.checkpoint.utc_ns);
-    say(b.identities ? msg("{}: {} entries up to {}, {} sessions ({} copied now), identities", o.out, b.checkpoint.size, when, b.sessions, b.copied)
+    say(b.identities ? msg("{}: {} entries up to {}, {} sessions ({} copied now), identities",
+                           o.out, b.checkpoint.size, when, b.sessions, b.copied)
         : b.older_identities
             ? msg("{}: {} entries up to {}, {} sessions ({} copied now), no identities now; those of an earlier backup stay in it, without who was "
                   "forgotten",
                   o.out, b.checkpoint.size, when, b.sessions, b.copied)
-            : msg("{}: {} entries up to {}, {} sessions ({} copied now), no identities", o.out, b.checkpoint.size, when, b.sessions, b.copied));
-    for (const auto& m : b.missing) say(msg("- session {}: its file is gone or was changed, and is not in the backup", m), 2);
+            : msg("{}: {} entries up to {}, {} sessions ({} copied now), no identities", o.out,
+                  b.checkpoint.size, when, b.sessions, b.copied));
+    for (const auto& m : b.missing)
+      say(msg("- session {}: its file is gone or was changed, and is not in the backup", m), 2);
   }
   return b.missing.empty() ? 0 : 1;
 }
@@ -51,16 +54,22 @@ int ledger_restore(const LedgerOptions& o) {
   say(msgn("{}: a backup of {} entry", "{}: a backup of {} entries", n, o.folder, n));
   for (const auto& f : plan.findings) say(msg("- {}", f.message()), 2);
   for (const auto& l : plan.lost_entries) say(msg("- lost: {}", l), 2);
-  for (const auto& m : plan.missing_sessions) say(msg("- session {}: its file is not in the backup, or was changed", m), 2);
-  if (!plan.identities) say(msg("not in it: who is behind the pseudonyms; copy identities.db from where it is kept"), 2);
+  for (const auto& m : plan.missing_sessions)
+    say(msg("- session {}: its file is not in the backup, or was changed", m), 2);
+  if (!plan.identities)
+    say(msg("not in it: who is behind the pseudonyms; copy identities.db from where it is kept"),
+        2);
   if (plan.identities && (plan.last_seen || !plan.compared))
     say(msg("whoever was forgotten after it was taken is known in it: forget them again"), 2);
   if (!plan.compared)
-    say(msg("not checked: whether entries are lost, for this computer has no witness of the ledger; name receipts or cosigned notes"), 2);
+    say(msg("not checked: whether entries are lost, for this computer has no witness of the ledger; name receipts or cosigned notes"),
+        2);
   if (!refused)
     say(msg("restored: {}, entry {} says so", o.out, n));
   else
-    say(plan.findings.empty() ? msg("NOT RESTORED: --accept-loss REASON goes on without what is lost, and enters that") : msg("NOT RESTORED"));
+    say(plan.findings.empty()
+            ? msg("NOT RESTORED: --accept-loss REASON goes on without what is lost, and enters that")
+            : msg("NOT RESTORED"));
   return refused ? 1 : 0;
 }
 

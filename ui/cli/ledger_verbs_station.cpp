@@ -18,9 +18,11 @@ constexpr std::int64_t k_week_ns = 7 * 86'400'000'000'000;
 
 /// In JSON, and for people.
 std::pair<const char*, Message> state_of(const records::Station& s) {
-  if (!s.replaced_by.empty()) return {"replaced", msg("replaced by {}", s.replaced_by.substr(0, 16))};
+  if (!s.replaced_by.empty())
+    return {"replaced", msg("replaced by {}", s.replaced_by.substr(0, 16))};
   if (s.revoked_utc_ns) return {"revoked", msg("revoked on {}", utc_text(*s.revoked_utc_ns))};
-  return {"enrolled", s.until_utc_ns > 0 ? msg("until {}", utc_text(s.until_utc_ns)) : msg("enrolled")};
+  return {"enrolled",
+          s.until_utc_ns > 0 ? msg("until {}", utc_text(s.until_utc_ns)) : msg("enrolled")};
 }
 
 void list_stations(const LedgerOptions& o) {
@@ -31,8 +33,12 @@ void list_stations(const LedgerOptions& o) {
     json devices = json::array();
     for (const auto& d : s.devices) devices.push_back({{"name", d.name}, {"serial", d.serial}});
     const auto [state, words] = state_of(s);
-    printed.push_back(
-        {{"name", s.name}, {"public_key", s.public_key}, {"entry", s.seq}, {"state", state}, {"text", english_text(words)}, {"styluses", devices}});
+    printed.push_back({{"name", s.name},
+                       {"public_key", s.public_key},
+                       {"entry", s.seq},
+                       {"state", state},
+                       {"text", english_text(words)},
+                       {"styluses", devices}});
     if (!o.as_json) say(msg("{}  {}, {}", s.public_key, s.name, words));
   }
   if (o.as_json)
@@ -49,7 +55,8 @@ void ledger_station(const LedgerOptions& o) {
     records::Ledger ledger(o.folder, key_of(o));
     const std::int64_t good_until = until > 0 ? until : read_clocks().utc_ns + k_week_ns;
     const std::string code = records::invite_station(ledger, o.invite, good_until);
-    if (o.as_json) return print_json(json{{"code", code}, {"name", o.invite}, {"until", utc_text(good_until)}});
+    if (o.as_json)
+      return print_json(json{{"code", code}, {"name", o.invite}, {"until", utc_text(good_until)}});
     say(msg("{} for {}, good once until {}", code, o.invite, utc_text(good_until)));
     say(msg("on the station: cavum station --enrol {} --out request.json", code));
   } else if (!o.enrol.empty()) {
@@ -63,7 +70,8 @@ void ledger_station(const LedgerOptions& o) {
       say(msg("entry {}: station '{}', key {}", seq, s.name, s.public_key));
   } else if (!o.revoke.empty()) {
     records::Ledger ledger(o.folder, key_of(o));
-    const auto seq = records::revoke_station(ledger, parse_public_key(o.revoke, "--revoke"), o.reason).seq;
+    const auto seq =
+        records::revoke_station(ledger, parse_public_key(o.revoke, "--revoke"), o.reason).seq;
     if (o.as_json)
       print_json(json{{"entry", seq}});
     else

@@ -23,13 +23,19 @@ using nlohmann::json;
 
 int ledger_ticket(const LedgerOptions& o) {
   if (o.candidate.empty() == o.candidates.empty())
-    throw Error(msg("ledger ticket"), msg("needs to know for whom"), msg("give either --candidate ID or --candidates FILE.csv"));
+    throw Error(msg("ledger ticket"), msg("needs to know for whom"),
+                msg("give either --candidate ID or --candidates FILE.csv"));
   records::require_candidate_id("--candidate", o.candidate);
   records::require_candidate_id("--name", o.name);
-  const std::vector<records::Person> people = o.candidates.empty() ? std::vector<records::Person>{{o.candidate, o.name}}
-                                                                   : records::parse_people(read_text_file(o.candidates), o.candidates, o.passed_over);
-  const std::int64_t from = records::parse_utc(o.from, "--from"), until = records::parse_utc(o.until, "--until");
-  if (until <= from) throw Error(Name{"--until"}, msg("is not after --from"), msg("give the last moment at which the exam may begin"));
+  const std::vector<records::Person> people =
+      o.candidates.empty()
+          ? std::vector<records::Person>{{o.candidate, o.name}}
+          : records::parse_people(read_text_file(o.candidates), o.candidates, o.passed_over);
+  const std::int64_t from = records::parse_utc(o.from, "--from"),
+                     until = records::parse_utc(o.until, "--until");
+  if (until <= from)
+    throw Error(Name{"--until"}, msg("is not after --from"),
+                msg("give the last moment at which the exam may begin"));
   scenarios::ExamOptions exam;
   exam.tooth_file = o.tooth;
   exam.rubric_file = o.rubric;
@@ -43,16 +49,26 @@ int ledger_ticket(const LedgerOptions& o) {
   const bool folder = !o.candidates.empty();
   if (until < read_clocks().utc_ns) say_error(msg("--until {}: is past already", o.until));
   if (folder) make_private_folder(o.out);
-  const auto file_for = [&](const std::string& candidate) { return folder ? fmt::format("{}/{}.ticket", o.out, file_name_of(candidate)) : o.out; };
-  for (const auto& p : people) require_new(o, file_for(identities.enrol(p.id, p.name, ticket.exam, ledger.key())));
+  const auto file_for = [&](const std::string& candidate) {
+    return folder ? fmt::format("{}/{}.ticket", o.out, file_name_of(candidate)) : o.out;
+  };
+  for (const auto& p : people)
+    require_new(o, file_for(identities.enrol(p.id, p.name, ticket.exam, ledger.key())));
   json printed = json::array();
   Lines rows;
   int refused = 0;
-  const records::ListCommand wish{ticket,        people,  std::vector(people.size(), records::TimeSpan{from, until}),    o.candidates, 0,
-                                  people.size(), o.grant, o.another ? records::Another::allow : records::Another::refuse};
-  const auto issued = records::issue_list(ledger, identities, wish, [&](const records::Issued& one, const std::string& text) {
-    write_school_file(o, file_for(one.candidate), text + "\n");
-  });
+  const records::ListCommand wish{ticket,
+                                  people,
+                                  std::vector(people.size(), records::TimeSpan{from, until}),
+                                  o.candidates,
+                                  0,
+                                  people.size(),
+                                  o.grant,
+                                  o.another ? records::Another::allow : records::Another::refuse};
+  const auto issued = records::issue_list(
+      ledger, identities, wish, [&](const records::Issued& one, const std::string& text) {
+        write_school_file(o, file_for(one.candidate), text + "\n");
+      });
   for (const auto& one : issued) {
     const auto& p = one.person;
     if (one.refused) {
@@ -62,11 +78,17 @@ int ledger_ticket(const LedgerOptions& o) {
       continue;
     }
     const std::string file = file_for(one.candidate);
-    const Message granted = scenarios::accommodations_text(scenarios::granted(setup->scenario.accommodations, one.ticket.grant, msg("the ticket")));
-    printed.push_back(
-        {{"candidate", one.candidate}, {"id", p.id}, {"name", p.name}, {"accommodations", granted}, {"file", file}, {"station", p.station}});
+    const Message granted = scenarios::accommodations_text(
+        scenarios::granted(setup->scenario.accommodations, one.ticket.grant, msg("the ticket")));
+    printed.push_back({{"candidate", one.candidate},
+                       {"id", p.id},
+                       {"name", p.name},
+                       {"accommodations", granted},
+                       {"file", file},
+                       {"station", p.station}});
     const Message who = p.name.empty() ? msg("{}", p.id) : msg("{}, {}", p.id, p.name);
-    rows.row({Name{one.candidate}, Name{file}, granted.empty() ? who : msg("{}; {}", who, granted)});
+    rows.row(
+        {Name{one.candidate}, Name{file}, granted.empty() ? who : msg("{}; {}", who, granted)});
   }
   if (o.as_json)
     print_json(json{{"tickets", printed}, {"refused", refused}});
@@ -90,9 +112,11 @@ void ledger_tickets(const LedgerOptions& o) {
                        {"not_after", utc_text(t.ticket.not_after_utc_ns)},
                        {"state", records::name_of(state.group)},
                        {"text", english_text(state.words)}});
-    rows.row({msg("{}", t.seq), Name{t.ticket.candidate}, Name{t.ticket.exam},
-              msg("{} to {}", utc_text(t.ticket.not_before_utc_ns), utc_text(t.ticket.not_after_utc_ns)), state.words},
-             2);
+    rows.row(
+        {msg("{}", t.seq), Name{t.ticket.candidate}, Name{t.ticket.exam},
+         msg("{} to {}", utc_text(t.ticket.not_before_utc_ns), utc_text(t.ticket.not_after_utc_ns)),
+         state.words},
+        2);
   }
   if (o.as_json)
     print_json(json{{"tickets", printed}});
@@ -101,23 +125,29 @@ void ledger_tickets(const LedgerOptions& o) {
 }
 
 void ledger_cancel(const LedgerOptions& o) {
-  if (o.ticket_entry < 0) throw Error(Name{"--ticket"}, msg("is no entry's number"), msg("see `cavum ledger tickets {}`", o.folder));
+  if (o.ticket_entry < 0)
+    throw Error(Name{"--ticket"}, msg("is no entry's number"),
+                msg("see `cavum ledger tickets {}`", o.folder));
   records::Ledger ledger(o.folder, key_of(o));
-  const auto& entry = records::cancel_ticket(ledger, static_cast<std::uint64_t>(o.ticket_entry), o.reason);
-  say(msg("entry {}: the ticket of entry {} does not count any more; an exam that is begun with it is filed with findings only", entry.seq,
-          o.ticket_entry));
+  const auto& entry =
+      records::cancel_ticket(ledger, static_cast<std::uint64_t>(o.ticket_entry), o.reason);
+  say(msg(
+      "entry {}: the ticket of entry {} does not count any more; an exam that is begun with it is filed with findings only",
+      entry.seq, o.ticket_entry));
 }
 
 void ledger_begin(const LedgerOptions& o) {
   records::Ledger ledger(o.folder, key_of(o));
   const std::string out = o.out.empty() ? records::begin_path(o.ticket_file) : o.out;
-  const records::Ticket ticket = records::parse_ticket(read_text_file(o.ticket_file), "", o.ticket_file);
+  const records::Ticket ticket =
+      records::parse_ticket(read_text_file(o.ticket_file), "", o.ticket_file);
   LedgerOptions writing = o;
   writing.overwrite = o.overwrite || !o.again.empty();  // the word before does not count any more
   require_new(writing, out);
   write_school_file(writing, out, records::let_begin(ledger, ticket.nonce, o.again) + "\n");
   say(msg("written: {}", out));
-  say(msg("keep it beside the ticket on the station; the exam of {} may begin now", ticket.candidate));
+  say(msg("keep it beside the ticket on the station; the exam of {} may begin now",
+          ticket.candidate));
 }
 
 }  // namespace cavum::ui

@@ -1,4 +1,5 @@
-// The manual page, the shell's completion and the udev rules, made of what the program says of itself with --help.
+// The manual page, the shell's completion and the udev rules, made of what the program says of
+// itself with --help.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -37,7 +38,8 @@ std::vector<const CLI::Option*> shown_options(const CLI::App& app) {
 }
 
 std::vector<const CLI::App*> shown_verbs(const CLI::App& app) {
-  return app.get_subcommands([](const CLI::App* verb) { return !verb->get_name().empty() && !verb->get_group().empty(); });
+  return app.get_subcommands(
+      [](const CLI::App* verb) { return !verb->get_name().empty() && !verb->get_group().empty(); });
 }
 
 void write_verb(std::ostream& out, const CLI::App& verb, const std::string& path) {
@@ -48,7 +50,9 @@ void write_verb(std::ostream& out, const CLI::App& verb, const std::string& path
       const bool takes_value = o->get_expected_max() > 0 && o->get_items_expected_max() > 0;
       const std::string value = takes_value && !o->get_positional() ? " " + o->get_type_name() : "";
       out << ".TP\n.B \"" << roff(o->get_name(o->get_positional(), true) + value) << "\"\n"
-          << roff(o->get_description()) << (o->get_default_str().empty() ? "" : roff(fmt::format(" ({})", o->get_default_str()))) << "\n";
+          << roff(o->get_description())
+          << (o->get_default_str().empty() ? "" : roff(fmt::format(" ({})", o->get_default_str())))
+          << "\n";
     }
   }
   for (const auto* v : below) write_verb(out, *v, fmt::format("{} {}", path, v->get_name()));
@@ -75,7 +79,8 @@ std::string names_of(const CLI::App& app) {
   return out;
 }
 
-void write_cases(std::ostream& paths, std::ostream& words, const CLI::App& app, const std::string& path) {
+void write_cases(std::ostream& paths, std::ostream& words, const CLI::App& app,
+                 const std::string& path) {
   words << "    \"" << path << "\") words=\"" << names_of(app) << "\" ;;\n";
   for (const auto* v : shown_verbs(app)) {
     paths << (paths.tellp() > 0 ? " | " : "") << "\"" << path << " " << v->get_name() << "\"";
@@ -108,7 +113,9 @@ void write_completion(std::ostream& out, const CLI::App& app) {
 void write_udev_rules(std::ostream& out) {
   out << "# Whoever sits at the screen may use the stylus. `cavum devices` names the line that another device needs.\n";
   for (const auto& kind : stylus_kinds().all())
-    if (kind.usb) out << "# " << english_text(kind.facts.name) << "\n" << udev_rule(kind.usb->vendor, kind.usb->product, false) << "\n";
+    if (kind.usb)
+      out << "# " << english_text(kind.facts.name) << "\n"
+          << udev_rule(kind.usb->vendor, kind.usb->product, false) << "\n";
 }
 
 }  // namespace
@@ -118,15 +125,23 @@ void add_manual_verbs(CLI::App& app, int& exit_code) {
     bool man = false, completion = false, udev = false;
   };
   const auto o = std::make_shared<Options>();
-  auto* verb = app.add_subcommand("manual", tr("The manual page (roff), the completion of bash, or the udev rules of the styluses"));
+  auto* verb = app.add_subcommand(
+      "manual",
+      tr("The manual page (roff), the completion of bash, or the udev rules of the styluses"));
   auto* man = verb->add_flag("--man", o->man, tr("the manual page: cavum manual --man | man -l -"));
   auto* completion =
-      verb->add_flag("--completion", o->completion, tr("what bash is to source, so that it completes verbs and options"))->excludes(man);
-  verb->add_flag("--udev-rules", o->udev, tr("lets whoever sits at the screen use a stylus: for /etc/udev/rules.d/60-cavum.rules"))
+      verb->add_flag("--completion", o->completion,
+                     tr("what bash is to source, so that it completes verbs and options"))
+          ->excludes(man);
+  verb->add_flag(
+          "--udev-rules", o->udev,
+          tr("lets whoever sits at the screen use a stylus: for /etc/udev/rules.d/60-cavum.rules"))
       ->excludes(man)
       ->excludes(completion);
   verb->callback([o, &app, &exit_code] {
-    if (!o->man && !o->completion && !o->udev) throw Error(msg("manual"), msg("is to write nothing"), msg("add --man, --completion or --udev-rules"));
+    if (!o->man && !o->completion && !o->udev)
+      throw Error(msg("manual"), msg("is to write nothing"),
+                  msg("add --man, --completion or --udev-rules"));
     if (o->udev)
       write_udev_rules(std::cout);
     else

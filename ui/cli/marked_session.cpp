@@ -8,7 +8,8 @@
 
 namespace cavum::ui {
 
-MarkedSession marked_session(const std::string& path, const MarkingOptions& o, grading::ExamContexts& grounds) {
+MarkedSession marked_session(const std::string& path, const MarkingOptions& o,
+                             grading::ExamContexts& grounds) {
   Marking m;
   m.another_task = o.another_task;
   if (!o.scenario.empty()) m.scenario = scenarios::load_scenario(o.scenario);

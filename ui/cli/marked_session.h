@@ -1,4 +1,5 @@
-// A recorded session, marked by its own rubric or by another, beside what it was sealed with: what `grade` and `report` show.
+// A recorded session, marked by its own rubric or by another, beside what it was sealed with: what
+// `grade` and `report` show.
 #pragma once
 
 #include <memory>
@@ -37,10 +38,13 @@ struct MarkedSession {
   bool regrade = false;  ///< the result is not the sealed one, which stands in `comparison`
 };
 /// Tooth and zones come out of `grounds`.
-[[nodiscard]] MarkedSession marked_session(const std::string& path, const MarkingOptions& options, grading::ExamContexts& grounds);
-[[nodiscard]] MarkedSession marked_session(const std::string& path, Marking by, grading::ExamContexts& grounds);
+[[nodiscard]] MarkedSession marked_session(const std::string& path, const MarkingOptions& options,
+                                           grading::ExamContexts& grounds);
+[[nodiscard]] MarkedSession marked_session(const std::string& path, Marking by,
+                                           grading::ExamContexts& grounds);
 
-/// A mistake in what is to be marked by is found before any session is opened; what is unwise is said on standard error.
+/// A mistake in what is to be marked by is found before any session is opened; what is unwise is
+/// said on standard error.
 void require_sound_marking(const MarkingOptions& options);
 
 }  // namespace cavum::ui

@@ -1,5 +1,5 @@
-// `cavum replay`: simulates recorded sessions again and says whether they are true. Works on one file or on
-// a folder, and writes JUnit for CI.
+// `cavum replay`: simulates recorded sessions again and says whether they are true. Works on one
+// file or on a folder, and writes JUnit for CI.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -20,7 +20,7 @@
 #include "ui/cli/session_files.h"
 #include "ui/cli/verbs.h"
 #include "ui/language/say.h"
-#include "ui/parts/own_places.h"
+#include "ui/parts/distinct_paths.h"
 #include "ui/parts/print_json.h"
 #include "ui/parts/say.h"
 
@@ -59,7 +59,9 @@ Outcome verify_timed(const std::string& path, const std::string& station_key) {
 
 json to_json(const VerifyReport& r) {
   json divergence = nullptr;
-  if (const auto& d = r.first_divergence) divergence = {{"tick", d->tick}, {"what", d->what}, {"recorded", d->recorded}, {"replayed", d->replayed}};
+  if (const auto& d = r.first_divergence)
+    divergence = {
+        {"tick", d->tick}, {"what", d->what}, {"recorded", d->recorded}, {"replayed", d->replayed}};
   return {{"file", r.file},
           {"verified", r.verified},
           {"closed", r.closed},
@@ -75,7 +77,12 @@ json to_json(const VerifyReport& r) {
 
 /// The same names over all sessions; the first divergence is the first session's that has one.
 json to_json(const std::string& folder, const std::vector<Outcome>& outcomes) {
-  json sum = {{"file", folder}, {"verified", true}, {"closed", true}, {"ticks", 0}, {"first_divergence", nullptr}, {"findings", json::array()}};
+  json sum = {{"file", folder},
+              {"verified", true},
+              {"closed", true},
+              {"ticks", 0},
+              {"first_divergence", nullptr},
+              {"findings", json::array()}};
   json sessions = json::array();
   std::int64_t ticks = 0;
   double realtime_s = 0, replay_s = 0;
@@ -114,10 +121,13 @@ std::string to_junit(const std::vector<Outcome>& outcomes) {
   }
   std::ostringstream out;
   out.precision(3);
-  out << std::fixed << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n<testsuite name=\"cavum replay\" tests=\"" << outcomes.size()
-      << "\" failures=\"" << failures << "\" errors=\"" << errors << "\" time=\"" << seconds << "\">\n";
+  out << std::fixed
+      << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n<testsuite name=\"cavum replay\" tests=\""
+      << outcomes.size() << "\" failures=\"" << failures << "\" errors=\"" << errors << "\" time=\""
+      << seconds << "\">\n";
   for (const auto& o : outcomes) {
-    out << "  <testcase classname=\"cavum.replay\" name=\"" << xml_text(o.report.file) << "\" time=\"" << o.seconds << "\"";
+    out << "  <testcase classname=\"cavum.replay\" name=\"" << xml_text(o.report.file)
+        << "\" time=\"" << o.seconds << "\"";
     if (o.report.verified) {
       out << "/>\n";
       continue;
@@ -126,8 +136,9 @@ std::string to_junit(const std::vector<Outcome>& outcomes) {
     for (const auto& f : o.report.findings) lines += english_text(f.message()) + "\n";
     const char* tag = o.readable() ? "failure" : "error";
     out << ">\n    <" << tag << " message=\""
-        << xml_text(o.report.findings.empty() ? "not verified" : english_text(o.report.findings.front().message())) << "\">" << xml_text(lines)
-        << "</" << tag << ">\n  </testcase>\n";
+        << xml_text(o.report.findings.empty() ? "not verified"
+                                              : english_text(o.report.findings.front().message()))
+        << "\">" << xml_text(lines) << "</" << tag << ">\n  </testcase>\n";
   }
   out << "</testsuite>\n</testsuites>\n";
   return out.str();
@@ -136,28 +147,35 @@ std::string to_junit(const std::vector<Outcome>& outcomes) {
 void print(const Outcome& o) {
   const VerifyReport& r = o.report;
   say(r.verified ? msg("{}: verified", r.file) : msg("{}: NOT VERIFIED", r.file));
-  if (r.ticks_replayed > 0) say(msg("{} of {} ticks replayed, {} times real time", r.ticks_replayed, r.ticks, as_number(r.speed_x_realtime, 0)), 2);
+  if (r.ticks_replayed > 0)
+    say(msg("{} of {} ticks replayed, {} times real time", r.ticks_replayed, r.ticks,
+            as_number(r.speed_x_realtime, 0)),
+        2);
   if (r.closed) say(msg("closed by station {}", r.station_key), 2);
   for (const auto& f : r.findings) say(msg("- {}", f.message()), 2);
 }
 
 int run(const ReplayArguments& options) {
-  const std::string station_key = options.station_key ? parse_public_key(*options.station_key, "--station-key") : "";
+  const std::string station_key =
+      options.station_key ? parse_public_key(*options.station_key, "--station-key") : "";
   const bool folder = std::filesystem::is_directory(options.path);
-  const std::vector<std::string> sessions = folder ? sessions_in(options.path) : std::vector{options.path};
+  const std::vector<std::string> sessions =
+      folder ? sessions_in(options.path) : std::vector{options.path};
   std::vector<NamedFile> read;
   for (const auto& path : sessions) read.push_back({path, path});
-  require_own_places({{"--junit " + options.junit, options.junit}}, read);
+  require_distinct_paths({{"--junit " + options.junit, options.junit}}, read);
   std::vector<Outcome> outcomes;
   for (const auto& path : sessions) outcomes.push_back(verify_timed(path, station_key));
-  if (!options.junit.empty()) write_text_file(options.junit, to_junit(outcomes));  // CI wants its file whatever happened
+  if (!options.junit.empty())
+    write_text_file(options.junit, to_junit(outcomes));  // CI wants its file whatever happened
   if (!folder && !outcomes[0].readable()) std::rethrow_exception(outcomes[0].unreadable);
   if (options.as_json) {
     print_json(folder ? to_json(options.path, outcomes) : to_json(outcomes[0].report));
   } else {
     for (const auto& o : outcomes) print(o);
   }
-  const bool all = std::all_of(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.report.verified; });
+  const bool all = std::all_of(outcomes.begin(), outcomes.end(),
+                               [](const Outcome& o) { return o.report.verified; });
   return all ? 0 : 1;
 }
 
@@ -165,12 +183,17 @@ int run(const ReplayArguments& options) {
 
 void add_replay_verbs(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<ReplayArguments>();
-  CLI::App* verb = app.add_subcommand("replay", tr("Simulate a recorded session again and compare every tick"));
-  verb->add_option("session", options->path, tr("a .cavum file, or a folder searched for them"))->required();
-  verb->add_flag("--verify", options->verify, tr("check chain, signature, every tick, every removed leaf and the final tooth"))->required();
+  CLI::App* verb =
+      app.add_subcommand("replay", tr("Simulate a recorded session again and compare every tick"));
+  verb->add_option("session", options->path, tr("a .cavum file, or a folder searched for them"))
+      ->required();
+  verb->add_flag("--verify", options->verify,
+                 tr("check chain, signature, every tick, every removed leaf and the final tooth"))
+      ->required();
   verb->add_flag("--json", options->as_json, tr("one JSON object on stdout"));
   verb->add_option("--junit", options->junit, tr("also write JUnit XML, one test case a session"));
-  verb->add_option("--station-key", options->station_key, tr("public key (hexadecimal) of the station that must have closed it"));
+  verb->add_option("--station-key", options->station_key,
+                   tr("public key (hexadecimal) of the station that must have closed it"));
   verb->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -1,4 +1,5 @@
-// `cavum scenario new`: a commented scenario to start from, by the landmarks of a tooth, or on the block.
+// `cavum scenario new`: a commented scenario to start from, by the landmarks of a tooth, or on the
+// block.
 #pragma once
 
 #include "ui/parts/option_checks.h"

@@ -15,9 +15,12 @@ std::vector<std::string> sessions_in(const std::string& folder) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
       if (entry.path().extension() == ".cavum") found.push_back(entry.path().string());
   } catch (const std::filesystem::filesystem_error& e) {
-    throw Error(system_code(e.code().value()), Name{folder}, system_words(e.code().value()), msg("check the folder and its permissions"));
+    throw Error(system_code(e.code().value()), Name{folder}, system_words(e.code().value()),
+                msg("check the folder and its permissions"));
   }
-  if (found.empty()) throw Error(Name{folder}, msg("holds no .cavum file"), msg("name a session or a folder of sessions"));
+  if (found.empty())
+    throw Error(Name{folder}, msg("holds no .cavum file"),
+                msg("name a session or a folder of sessions"));
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -27,7 +30,8 @@ std::vector<std::string> session_files(const std::vector<std::string>& names) {
   std::set<std::filesystem::path> known;
   const auto add = [&](std::string file) {
     std::error_code none;
-    if (known.insert(std::filesystem::weakly_canonical(file, none)).second) files.push_back(std::move(file));
+    if (known.insert(std::filesystem::weakly_canonical(file, none)).second)
+      files.push_back(std::move(file));
   };
   for (const auto& name : names) {
     if (!std::filesystem::is_directory(name)) {

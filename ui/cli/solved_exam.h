@@ -14,7 +14,9 @@
 namespace cavum::ui {
 
 /// A simulated candidate takes the exam; the session is sealed with the result.
-[[nodiscard]] grading::Result sat_by(const scenarios::ExamSetup& setup, scenarios::SimulatedCandidate& candidate, const std::string& session);
+[[nodiscard]] grading::Result sat_by(const scenarios::ExamSetup& setup,
+                                     scenarios::SimulatedCandidate& candidate,
+                                     const std::string& session);
 
 /// What `solve` found out; `result` is missing when the expert could not even begin.
 struct Solved {
@@ -25,6 +27,7 @@ struct Solved {
 };
 
 /// `session` is the file to write; `seed` of the expert's tremor.
-[[nodiscard]] Solved solve_exam(const scenarios::ExamSetup& setup, std::uint64_t seed, const std::string& session);
+[[nodiscard]] Solved solve_exam(const scenarios::ExamSetup& setup, std::uint64_t seed,
+                                const std::string& session);
 
 }  // namespace cavum::ui

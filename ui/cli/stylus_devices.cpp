@@ -32,18 +32,23 @@ const StylusKind& kind_of(const std::string& id) {
 
 nlohmann::json ratings(const std::string& id) {
   const StylusFacts& f = kind_of(id).facts;
-  return {
-      {"peak_n", f.peak_n}, {"continuous_n", f.continuous_n}, {"rate_hz", f.rate_hz}, {"reach_mm", f.reach_mm}, {"direction", f.measures_direction}};
+  return {{"peak_n", f.peak_n},
+          {"continuous_n", f.continuous_n},
+          {"rate_hz", f.rate_hz},
+          {"reach_mm", f.reach_mm},
+          {"direction", f.measures_direction}};
 }
 
 /// A crown at the edge of what the device reaches is cut short by it, not by the tooth.
 void warn_of_the_edge(const StylusKind& kind, const Placement& placed) {
-  const Vec3 usual_middle_mm = rotation(kind.placement.rotation).transposed(-kind.placement.offset_mm);
+  const Vec3 usual_middle_mm =
+      rotation(kind.placement.rotation).transposed(-kind.placement.offset_mm);
   const double off_mm = length(to_tooth(placed, usual_middle_mm).tip_mm);
   constexpr double k_tooth_mm = 15.0;
   if (off_mm + k_tooth_mm > kind.facts.reach_mm)
-    say(msg("the crown is {} from the middle of its reach of {}: move the device, and place it anew", as_mm(off_mm, 0),
-            as_mm(kind.facts.reach_mm, 0)));
+    say(msg(
+        "the crown is {} from the middle of its reach of {}: move the device, and place it anew",
+        as_mm(off_mm, 0), as_mm(kind.facts.reach_mm, 0)));
 }
 
 /// Where the tip is, in the mean of a fifth of a second: hands tremble.
@@ -80,7 +85,9 @@ Lines styluses_text(bool again) {
   Lines out;
   out.add(msg("styluses"));
   for (const auto& s : list_styluses(!again)) {
-    out.row({Name{s.id}, s.name, s.there ? Message() : msg("(not there)"), placed(s.id) ? msg("(placed)") : Message()}, 2);
+    out.row({Name{s.id}, s.name, s.there ? Message() : msg("(not there)"),
+             placed(s.id) ? msg("(placed)") : Message()},
+            2);
     if (s.problem) out.add(s.problem->message(), 4);
   }
   return out;
@@ -90,13 +97,16 @@ int test_stylus(const std::string& id, double seconds, bool friction, bool json)
   const auto stylus = open_stylus(id);
   const bool real = kind_of(id).hand == StylusHand::person;
   static_cast<void>(first_pose(*stylus, k_patience_s));
-  if (!json && friction) say(msg("let go of the stylus and let it stand free: it is pushed slowly, by 1 N at most ..."));
+  if (!json && friction)
+    say(msg("let go of the stylus and let it stand free: it is pushed slowly, by 1 N at most ..."));
   std::cout << std::flush;
-  const StylusProbe p = probe_stylus(*stylus, {.listen_s = seconds, .friction = friction, .real_time = real});
+  const StylusProbe p =
+      probe_stylus(*stylus, {.listen_s = seconds, .friction = friction, .real_time = real});
   if (json) {
     nlohmann::json axes = nlohmann::json::object();
     const std::array<const char*, 3> names{"x", "y", "z"};
-    for (std::size_t i = 0; i < 3; ++i) axes[names[i]] = {{"friction_n", p.axes[i].friction_n()}, {"bias_n", p.axes[i].bias_n()}};
+    for (std::size_t i = 0; i < 3; ++i)
+      axes[names[i]] = {{"friction_n", p.axes[i].friction_n()}, {"bias_n", p.axes[i].bias_n()}};
     print_json(nlohmann::json{{"id", id},
                               {"name", stylus->facts().name},
                               {"readings", p.readings},
@@ -109,15 +119,18 @@ int test_stylus(const std::string& id, double seconds, bool friction, bool json)
                               {"friction_problem", problem_json(p.friction_problem)},
                               {"axes", axes}});
   } else {
-    say(msg("{}: {}, jitter {}, longest gap {}", stylus->facts().name, as_unit(p.rate_hz, Unit::hz), as_unit(1e3 * p.jitter_s, Unit::ms, 2),
-            as_unit(1e3 * p.longest_gap_s, Unit::ms, 1)));
+    say(msg("{}: {}, jitter {}, longest gap {}", stylus->facts().name, as_unit(p.rate_hz, Unit::hz),
+            as_unit(1e3 * p.jitter_s, Unit::ms, 2), as_unit(1e3 * p.longest_gap_s, Unit::ms, 1)));
     if (p.quantum_mm > 0)
-      say(msg("smallest step {} ({} are reckoned with)", as_mm(p.quantum_mm, 4), as_mm(stylus->facts().position_quantum_mm, k_as_needed)), 2);
+      say(msg("smallest step {} ({} are reckoned with)", as_mm(p.quantum_mm, 4),
+              as_mm(stylus->facts().position_quantum_mm, k_as_needed)),
+          2);
     else
       say(msg("it did not move: the step of its positions is not known"), 2);
     if (p.friction_n > 0)
-      say(msg("friction in air {}; x {}, y {}, z {}; pulled by itself {} along z", as_n(p.friction_n), as_n(p.axes[0].friction_n()),
-              as_n(p.axes[1].friction_n()), as_n(p.axes[2].friction_n()), as_n(p.axes[2].bias_n())),
+      say(msg("friction in air {}; x {}, y {}, z {}; pulled by itself {} along z",
+              as_n(p.friction_n), as_n(p.axes[0].friction_n()), as_n(p.axes[1].friction_n()),
+              as_n(p.axes[2].friction_n()), as_n(p.axes[2].bias_n())),
           2);
     if (p.friction_problem) say(p.friction_problem->message(), 2);
   }
@@ -125,7 +138,8 @@ int test_stylus(const std::string& id, double seconds, bool friction, bool json)
 }
 
 void place_stylus(const std::string& id) {
-  const StylusKind& kind = stylus_kinds().at(id, Name{"--place --stylus " + id}, {StylusHand::person});
+  const StylusKind& kind =
+      stylus_kinds().at(id, Name{"--place --stylus " + id}, {StylusHand::person});
   const std::string path = station_stylus_path(id);
   make_private_folder(std::filesystem::path(path).parent_path().string());
   require_writable(path);
@@ -135,22 +149,25 @@ void place_stylus(const std::string& id) {
   options.station.placement = {};  // its own frame
   const auto stylus = kind.open(options);
   static_cast<void>(first_pose(*stylus, k_patience_s));
-  const std::array<std::pair<std::string, Vec3>, 4> marks{{{tr("hold the tip where the middle of the crown shall be, then press Enter"), {0, 0, 0}},
-                                                           {tr("hold the tip 20 mm to mesial (to the right) of it, then press Enter"), {20, 0, 0}},
-                                                           {tr("hold the tip 20 mm to buccal (away from you) of it, then press Enter"), {0, 20, 0}},
-                                                           {tr("hold the tip 20 mm above it, then press Enter"), {0, 0, 20}}}};
+  const std::array<std::pair<std::string, Vec3>, 4> marks{
+      {{tr("hold the tip where the middle of the crown shall be, then press Enter"), {0, 0, 0}},
+       {tr("hold the tip 20 mm to mesial (to the right) of it, then press Enter"), {20, 0, 0}},
+       {tr("hold the tip 20 mm to buccal (away from you) of it, then press Enter"), {0, 20, 0}},
+       {tr("hold the tip 20 mm above it, then press Enter"), {0, 0, 20}}}};
   std::vector<Vec3> device, tooth;
   for (const auto& [what, at] : marks) {
     std::cerr << what << "\n";
     std::string line;
-    if (!std::getline(std::cin, line)) throw Error(Name{"--place"}, msg("was interrupted"), msg("begin it again"));
+    if (!std::getline(std::cin, line))
+      throw Error(Name{"--place"}, msg("was interrupted"), msg("begin it again"));
     device.push_back(held_at(*stylus));
     tooth.push_back(at);
   }
   const PlacementFit fit = fit_placement(device, tooth);
   constexpr double k_max_mm = 3.0;
   if (fit.worst_mm > k_max_mm)
-    throw Error(Name{"--place"}, msg("the marks do not fit together: one is off by {}", as_mm(fit.worst_mm, 1)),
+    throw Error(Name{"--place"},
+                msg("the marks do not fit together: one is off by {}", as_mm(fit.worst_mm, 1)),
                 msg("measure them with a ruler, and begin again"));
   options.station.placement = fit.placement;
   options.station.placement.tool = tool;

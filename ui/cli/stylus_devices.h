@@ -1,4 +1,5 @@
-// The stylus side of `cavum devices`: what is there and what is wrong with it, how well one works, and where it stands beside the tooth.
+// The stylus side of `cavum devices`: what is there and what is wrong with it, how well one works,
+// and where it stands beside the tooth.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -17,10 +18,11 @@ namespace cavum::ui {
 [[nodiscard]] nlohmann::json styluses_json(bool again);
 /// The same as lines for a terminal.
 [[nodiscard]] Lines styluses_text(bool again);
-/// Tries the stylus `id` for `seconds` and pushes it gently. Returns 0; 1 when it says nothing or its friction could not be found. Throws Error when
-/// it cannot be opened.
+/// Tries the stylus `id` for `seconds` and pushes it gently. Returns 0; 1 when it says nothing or
+/// its friction could not be found. Throws Error when it cannot be opened.
 int test_stylus(const std::string& id, double seconds, bool friction, bool json);
-/// Asks for four marks, and keeps the placement that fits them. Throws Error when they do not fit together.
+/// Asks for four marks, and keeps the placement that fits them. Throws Error when they do not fit
+/// together.
 void place_stylus(const std::string& id);
 
 }  // namespace cavum::ui

@@ -29,12 +29,16 @@ nlohmann::ordered_json describe(const Tooth& tooth, std::uintmax_t file_bytes) {
   const auto& o = tooth.octree;
   const auto count = o.count_leaves();
   const Bounds b = bounds_of(tooth);
-  const auto triple = [](Vec3 v) { return Json::array({rounded(v.x, 1e-6), rounded(v.y, 1e-6), rounded(v.z, 1e-6)}); };
+  const auto triple = [](Vec3 v) {
+    return Json::array({rounded(v.x, 1e-6), rounded(v.y, 1e-6), rounded(v.z, 1e-6)});
+  };
   Json tissues = Json::array();
   for (const auto& t : tooth.tissues)
     if (count[t.id] > 0)
       tissues.push_back(
-          {{"name", t.name}, {"volume_mm3", rounded(static_cast<double>(count[t.id]) * o.leaf_volume_mm3(), 1e-6)}, {"solid", t.solid}});
+          {{"name", t.name},
+           {"volume_mm3", rounded(static_cast<double>(count[t.id]) * o.leaf_volume_mm3(), 1e-6)},
+           {"solid", t.solid}});
   Json source = Json::array();
   for (const auto& entry : tooth.source) source.push_back(Json(encode(entry)));
   return {{"name", tooth.name},
@@ -63,16 +67,22 @@ void print_tooth(const Tooth& tooth, const nlohmann::ordered_json& d) {
     const auto& at = d["bounds_mm"][which];
     return Vec3{at[0].get<double>(), at[1].get<double>(), at[2].get<double>()};
   };
-  out.add(msg("leaf: {}; from {} to {}", as_mm(tooth.octree.leaf_mm(), k_as_needed), corner("low"), corner("high")), 2);
+  out.add(msg("leaf: {}; from {} to {}", as_mm(tooth.octree.leaf_mm(), k_as_needed), corner("low"),
+              corner("high")),
+          2);
   for (const auto& t : d["tissues"])
-    out.row({msg("{}", Term{t["name"].get<std::string>()}), msg("{}", as_mm3(t["volume_mm3"].get<double>(), 3)),
+    out.row({msg("{}", Term{t["name"].get<std::string>()}),
+             msg("{}", as_mm3(t["volume_mm3"].get<double>(), 3)),
              t["solid"].get<bool>() ? Message() : msg("(not solid)")},
             2);
-  out.add(msg("memory: {} MB, file {} MB", as_number(d["memory_bytes"].get<double>() / 1e6, 2), as_number(d["file_bytes"].get<double>() / 1e6, 2)),
+  out.add(msg("memory: {} MB, file {} MB", as_number(d["memory_bytes"].get<double>() / 1e6, 2),
+              as_number(d["file_bytes"].get<double>() / 1e6, 2)),
           2);
   out.add(msg("hash: {}", d["hash"].get<std::string>()), 2);
-  for (const auto& guess : tooth.notes_of(ToothNote::Kind::guess)) out.add(msg("guess: {}", guess), 2);
-  for (const auto& warning : tooth.notes_of(ToothNote::Kind::warning)) out.add(msg("notice: {}", warning), 2);
+  for (const auto& guess : tooth.notes_of(ToothNote::Kind::guess))
+    out.add(msg("guess: {}", guess), 2);
+  for (const auto& warning : tooth.notes_of(ToothNote::Kind::warning))
+    out.add(msg("notice: {}", warning), 2);
   say(out);
 }
 

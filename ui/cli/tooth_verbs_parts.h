@@ -16,7 +16,8 @@ namespace cavum::ui {
 /// Three of them.
 [[nodiscard]] Vec3 parse_vec(const std::string& text, const std::string& option);
 /// Saves the tooth and says what it is; `more` adds fields to the JSON.
-void save_and_tell(const Tooth& tooth, const std::string& path, bool json, const nlohmann::ordered_json& more);
+void save_and_tell(const Tooth& tooth, const std::string& path, bool json,
+                   const nlohmann::ordered_json& more);
 /// `cavum tooth import`.
 void add_import(CLI::App& tooth);
 /// `cavum tooth landmarks`.

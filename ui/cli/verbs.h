@@ -1,5 +1,6 @@
-// The verbs of the command line. Each family adds its own subcommands; a verb that runs stores its exit
-// code: 0 done, 1 done and the answer is no. Unusable input is thrown as Error and ends with 2.
+// The verbs of the command line. Each family adds its own subcommands; a verb that runs stores its
+// exit code: 0 done, 1 done and the answer is no. Unusable input is thrown as Error and ends
+// with 2.
 #pragma once
 
 #include <string>
@@ -16,8 +17,11 @@ void add_session_verbs(CLI::App& app, int& exit_code);
 void add_grade_verbs(CLI::App& app, int& exit_code);
 /// After the ledger's: `ledger report` is one of them.
 void add_report_verbs(CLI::App& app, int& exit_code);
-/// The report (HTML) for an instructor or a student of a recording that a ledger holds. Throws Error, also where a student may not see it.
-[[nodiscard]] std::string filed_report(const std::string& ledger_folder, const std::string& recording, const std::string& reader = "instructor");
+/// The report (HTML) for an instructor or a student of a recording that a ledger holds. Throws
+/// Error, also where a student may not see it.
+[[nodiscard]] std::string filed_report(const std::string& ledger_folder,
+                                       const std::string& recording,
+                                       const std::string& reader = "instructor");
 void add_scan_verbs(CLI::App& app, int& exit_code);
 void add_rig_verbs(CLI::App& app, int& exit_code);
 void add_device_verbs(CLI::App& app, int& exit_code);

@@ -19,17 +19,24 @@ void add_verify_verbs(CLI::App& app, int& exit_code) {
     bool as_json = false;
   };
   const auto o = std::make_shared<Options>();
-  auto* verify = app.add_subcommand("verify", tr("Say in words what is proved of a recorded exam, and what is not"));
+  auto* verify = app.add_subcommand(
+      "verify", tr("Say in words what is proved of a recorded exam, and what is not"));
   verify->add_option("session", o->session, tr("a .cavum file"))->required();
-  verify->add_option("--school-key", o->school_key,
-                     tr("public key (hexadecimal) of the school that must have issued the ticket; else a ticket is compared with "
-                        "$CAVUM_HOME/school.pub where that is"));
+  verify->add_option(
+      "--school-key", o->school_key,
+      tr("public key (hexadecimal) of the school that must have issued the ticket; else a ticket is compared with "
+         "$CAVUM_HOME/school.pub where that is"));
   verify->add_flag("--json", o->as_json, tr("one JSON object on stdout"));
   verify->callback([o, &exit_code] {
-    const std::string key = o->school_key.empty() ? records::station_school_key() : parse_public_key(o->school_key, "--school-key");
-    const records::SessionExplanation e = records::explain_session(o->session, key, !o->school_key.empty());
+    const std::string key = o->school_key.empty() ? records::station_school_key()
+                                                  : parse_public_key(o->school_key, "--school-key");
+    const records::SessionExplanation e =
+        records::explain_session(o->session, key, !o->school_key.empty());
     if (o->as_json)
-      print_json(nlohmann::json{{"verified", e.holds}, {"proved", e.proved}, {"findings", e.findings}, {"remarks", e.remarks}});
+      print_json(nlohmann::json{{"verified", e.holds},
+                                {"proved", e.proved},
+                                {"findings", e.findings},
+                                {"remarks", e.remarks}});
     else
       say(records::to_text(e));
     exit_code = e.holds ? 0 : 1;

@@ -27,13 +27,16 @@ constexpr const char* k_page_messages[] = {
     "",
 };
 
-/// Folders of catalogues, L/LC_MESSAGES/cavum.mo in them: built ones stand beside the program that was built, installed ones in share/cavum.
+/// Folders of catalogues, L/LC_MESSAGES/cavum.mo in them: built ones stand beside the program that
+/// was built, installed ones in share/cavum.
 std::vector<fs::path> catalogue_folders() {
   std::vector<fs::path> out;
   for (const auto& data : shipped_folders()) out.push_back(data / "languages");
   constexpr int k_deepest_build = 6;
   fs::path folder = program_folder();
-  for (int up = 0; up < k_deepest_build && folder.has_relative_path(); ++up, folder = folder.parent_path()) out.push_back(folder / "languages");
+  for (int up = 0; up < k_deepest_build && folder.has_relative_path();
+       ++up, folder = folder.parent_path())
+    out.push_back(folder / "languages");
   return out;
 }
 
@@ -62,33 +65,39 @@ Catalogue::Catalogue(const std::string& language) : language_(language) {
     return;
   }
   const std::vector<fs::path> folders = catalogue_folders();
-  const auto folder = std::find_if(folders.begin(), folders.end(), [&](const fs::path& f) { return is_catalogue_of(f, language); });
+  const auto folder = std::find_if(folders.begin(), folders.end(),
+                                   [&](const fs::path& f) { return is_catalogue_of(f, language); });
   if (language.empty() || language.find('/') != std::string::npos || folder == folders.end()) {
-    throw Error("--language", msg("there is no catalogue of '{}'", language), msg("give one of {}", list_of(languages())));
+    throw Error("--language", msg("there is no catalogue of '{}'", language),
+                msg("give one of {}", list_of(languages())));
   }
   boost::locale::gnu_gettext::messages_info info;
   info.language = language;
   info.encoding = "UTF-8";
   info.domains.emplace_back("cavum");
   info.paths.push_back(folder->string());
-  locale_ = std::locale(std::locale::classic(), boost::locale::gnu_gettext::create_messages_facet<char>(info));
+  locale_ = std::locale(std::locale::classic(),
+                        boost::locale::gnu_gettext::create_messages_facet<char>(info));
   kind_ = Kind::translated;
   // the catalogue says it, as the translator of this message
-  if (const auto sign = find(said(".")); sign && sign->size() == 1) decimal_sign_ = sign->front();
+  if (const auto sign = find(noop(".")); sign && sign->size() == 1) decimal_sign_ = sign->front();
 }
 
 std::optional<std::string> Catalogue::find(const std::string& english) const {
   if (kind_ == Kind::pseudo) return pseudo(english);
   if (kind_ == Kind::english) return std::nullopt;
-  const char* text = std::use_facet<boost::locale::message_format<char>>(locale_).get(0, nullptr, english.c_str());
+  const char* text =
+      std::use_facet<boost::locale::message_format<char>>(locale_).get(0, nullptr, english.c_str());
   return text != nullptr && *text != 0 ? std::optional<std::string>(text) : std::nullopt;
 }
 
-std::optional<std::string> Catalogue::find(const std::string& one, const std::string& many, long long count) const {
+std::optional<std::string> Catalogue::find(const std::string& one, const std::string& many,
+                                           long long count) const {
   if (kind_ == Kind::pseudo) return pseudo(count == 1 ? one : many);
   if (kind_ == Kind::english) return std::nullopt;
   const int n = static_cast<int>(std::clamp<long long>(count, 0, std::numeric_limits<int>::max()));
-  const char* text = std::use_facet<boost::locale::message_format<char>>(locale_).get(0, nullptr, one.c_str(), n);
+  const char* text =
+      std::use_facet<boost::locale::message_format<char>>(locale_).get(0, nullptr, one.c_str(), n);
   return text != nullptr && *text != 0 ? std::optional<std::string>(text) : std::nullopt;
 }
 
@@ -99,7 +108,8 @@ std::vector<std::string> languages() {
   for (const auto& folder : catalogue_folders()) {
     std::error_code none;
     for (const auto& entry : fs::directory_iterator(folder, none))
-      if (is_catalogue_of(folder, entry.path().filename().string())) found.insert(entry.path().filename().string());
+      if (is_catalogue_of(folder, entry.path().filename().string()))
+        found.insert(entry.path().filename().string());
   }
   std::vector<std::string> out{"en"};
   out.insert(out.end(), found.begin(), found.end());
@@ -130,7 +140,8 @@ const std::string& language() noexcept { return current().language(); }
 char decimal_sign() noexcept { return current().decimal_sign(); }
 
 const std::vector<std::string>& page_messages() {
-  static const std::vector<std::string> all(std::begin(k_page_messages), std::end(k_page_messages) - 1);
+  static const std::vector<std::string> all(std::begin(k_page_messages),
+                                            std::end(k_page_messages) - 1);
   return all;
 }
 
@@ -140,9 +151,12 @@ std::string take_language_option(std::vector<std::string>& arguments) {
     constexpr std::string_view k_option = "--language";
     const std::string a = arguments[i];
     if (a == k_option) {
-      if (i + 1 == arguments.size()) throw Error(msg("command line"), msg("--language needs a language"), msg("give one, for example --language de"));
+      if (i + 1 == arguments.size())
+        throw Error(msg("command line"), msg("--language needs a language"),
+                    msg("give one, for example --language de"));
       language = arguments[i + 1];
-      arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(i), arguments.begin() + static_cast<std::ptrdiff_t>(i) + 2);
+      arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(i),
+                      arguments.begin() + static_cast<std::ptrdiff_t>(i) + 2);
     } else if (a.starts_with(std::string(k_option) + "=")) {
       language = a.substr(k_option.size() + 1);
       arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(i));

@@ -1,4 +1,5 @@
-// The messages of one language. Boost.Locale reads the catalogues that msgfmt compiled; no locale of the system is needed or set.
+// The messages of one language. Boost.Locale reads the catalogues that msgfmt compiled; no locale
+// of the system is needed or set.
 #pragma once
 
 #include <locale>
@@ -19,9 +20,11 @@ class Catalogue {
   [[nodiscard]] const std::string& language() const noexcept { return language_; }
   /// Between whole and decimal digits.
   [[nodiscard]] char decimal_sign() const noexcept { return decimal_sign_; }
-  /// A message; nothing where the catalogue does not have it. In the pseudo-language every message is there.
+  /// A message; nothing where the catalogue does not have it. In the pseudo-language every message
+  /// is there.
   [[nodiscard]] std::optional<std::string> find(const std::string& english) const;
-  [[nodiscard]] std::optional<std::string> find(const std::string& one, const std::string& many, long long count) const;
+  [[nodiscard]] std::optional<std::string> find(const std::string& one, const std::string& many,
+                                                long long count) const;
 
  private:
   Kind kind_ = Kind::english;

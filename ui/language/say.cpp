@@ -8,11 +8,13 @@
 
 namespace cavum {
 
-std::string with_isolates(std::string_view text, std::string (*safe)(std::string_view), std::string_view open, std::string_view close) {
+std::string with_isolates(std::string_view text, std::string (*safe)(std::string_view),
+                          std::string_view open, std::string_view close) {
   constexpr std::size_t k_sign = std::char_traits<char>::length(k_isolate);
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t from = text.find(k_isolate, at), to = from == text.npos ? from : text.find(k_isolate_end, from);
+    const std::size_t from = text.find(k_isolate, at),
+                      to = from == text.npos ? from : text.find(k_isolate_end, from);
     if (to == text.npos) return out + safe(text.substr(at));
     out += safe(text.substr(at, from - at));
     out.append(open).append(safe(text.substr(from + k_sign, to - from - k_sign))).append(close);
@@ -29,8 +31,11 @@ std::string name_in_line(std::string_view text) {
   // Hebrew, Arabic and their neighbours (U+0590 to U+08FF, presentation forms)
   const auto turns = [&line] {
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-      const auto a = static_cast<unsigned char>(line[i]), b = static_cast<unsigned char>(line[i + 1]);
-      if ((a >= 0xd6 && a <= 0xdf && !(a == 0xd6 && b < 0x90)) || (a == 0xe0 && b >= 0xa0 && b <= 0xa3) || (a == 0xef && b >= 0xac)) return true;
+      const auto a = static_cast<unsigned char>(line[i]),
+                 b = static_cast<unsigned char>(line[i + 1]);
+      if ((a >= 0xd6 && a <= 0xdf && !(a == 0xd6 && b < 0x90)) ||
+          (a == 0xe0 && b >= 0xa0 && b <= 0xa3) || (a == 0xef && b >= 0xac))
+        return true;
     }
     return false;
   };
@@ -51,16 +56,23 @@ std::string sentence_of(const std::optional<std::string>& translated, const char
 
 class ReadersLocale final : public Locale {
  public:
-  [[nodiscard]] std::string sentence(const char* english) const override { return sentence_of(catalogue().find(english), english); }
-  [[nodiscard]] std::string sentence(const char* one, const char* many, std::int64_t count) const override {
+  [[nodiscard]] std::string sentence(const char* english) const override {
+    return sentence_of(catalogue().find(english), english);
+  }
+  [[nodiscard]] std::string sentence(const char* one, const char* many,
+                                     std::int64_t count) const override {
     return sentence_of(catalogue().find(one, many, count), count == 1 ? one : many);
   }
-  [[nodiscard]] std::string term(const std::string& english) const override { return catalogue().find(english).value_or(english); }
+  [[nodiscard]] std::string term(const std::string& english) const override {
+    return catalogue().find(english).value_or(english);
+  }
   [[nodiscard]] std::string authored(const std::string& english) const override {
     const auto own = of_files().find(english);
     return own != of_files().end() ? own->second : term(english);
   }
-  [[nodiscard]] std::string name(const std::string& text) const override { return name_in_line(text); }
+  [[nodiscard]] std::string name(const std::string& text) const override {
+    return name_in_line(text);
+  }
   [[nodiscard]] char decimal_sign() const noexcept override { return catalogue().decimal_sign(); }
 };
 

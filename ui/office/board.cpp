@@ -5,12 +5,16 @@
 
 namespace cavum::office {
 
-void Board::report(const std::string& public_key, const StationReport& report, std::int64_t utc_ns) {
+void Board::report(const std::string& public_key, const StationReport& report,
+                   std::int64_t utc_ns) {
   const std::lock_guard guard(lock_);
-  StationSaid& seen = seen_[public_key];
+  StationStatus& seen = seen_[public_key];
   const bool same = seen.since_utc_ns != 0 && seen.candidate == report.candidate;
   std::int64_t since = 0;  // where the station does not say it, he is here since he was first seen
-  if (!report.candidate.empty()) since = report.here_s >= 0 ? utc_ns - report.here_s * 1'000'000'000 : same ? seen.since_utc_ns : utc_ns;
+  if (!report.candidate.empty())
+    since = report.here_s >= 0 ? utc_ns - report.here_s * 1'000'000'000
+            : same             ? seen.since_utc_ns
+                               : utc_ns;
   seen = {report, seen.refused, utc_ns, since};
   if (!report.candidate.empty()) candidates_.insert(report.candidate);
   if (!report.candidate.empty() && report.state != AtStation::free) seen.refused.clear();
@@ -36,9 +40,9 @@ std::set<std::string> Board::candidates() const {
   return candidates_;
 }
 
-std::map<std::string, StationSaid> Board::stations() const {
+std::map<std::string, StationStatus> Board::stations() const {
   const std::lock_guard guard(lock_);
-  std::map<std::string, StationSaid> out;
+  std::map<std::string, StationStatus> out;
   for (const auto& [key, seen] : seen_) {
     if (seen.seen_utc_ns == 0) continue;  // it only asked to begin
     out[key] = seen;
@@ -59,7 +63,8 @@ std::uint64_t Board::version() const {
 
 std::uint64_t Board::wait(std::uint64_t seen, int patience_ms) const {
   std::unique_lock guard(lock_);
-  changed_.wait_for(guard, std::chrono::milliseconds(patience_ms), [&] { return version_ != seen; });
+  changed_.wait_for(guard, std::chrono::milliseconds(patience_ms),
+                    [&] { return version_ != seen; });
   return version_;
 }
 

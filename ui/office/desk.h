@@ -1,5 +1,6 @@
-// What people and stations do at the office, each as one call: it reads the ledger or adds to it, with who and why in the entry. One at a time; what
-// takes long (a tooth that is made, an exam that is verified) happens elsewhere.
+// What people and stations do at the office, each as one call: it reads the ledger or adds to it,
+// with who and why in the entry. One at a time; what takes long (a tooth that is made, an exam that
+// is verified) happens elsewhere.
 #pragma once
 
 #include <functional>
@@ -24,10 +25,12 @@
 namespace cavum::office {
 
 /// Files that the office keeps beside the ledger, in the school's own folder: office/ID.
-struct OfficePlaces {
+struct OfficePaths {
   std::string folder;
   /// A ticket's file with its accommodations, for the stations: there while the ticket is live.
-  [[nodiscard]] std::string ticket(const std::string& nonce) const { return folder + "/tickets/" + nonce + ".ticket"; }
+  [[nodiscard]] std::string ticket(const std::string& nonce) const {
+    return folder + "/tickets/" + nonce + ".ticket";
+  }
   [[nodiscard]] std::string inbox() const { return folder + "/inbox"; }
 };
 
@@ -50,7 +53,8 @@ struct OwnResult {
 class Desk {
  public:
   /// `exams`: scenario files that tickets may be issued for.
-  Desk(const std::string& ledger_folder, const SigningKey& school, OfficePlaces places, std::vector<std::string> exams);
+  Desk(const std::string& ledger_folder, const SigningKey& school, OfficePaths places,
+       std::vector<std::string> exams);
 
   [[nodiscard]] const std::string& ledger_id() const noexcept { return id_; }
   [[nodiscard]] const std::string& school() const noexcept { return school_; }
@@ -60,15 +64,18 @@ class Desk {
   [[nodiscard]] Exams exams() const;
   [[nodiscard]] Preview preview(const ClassList& asked);
   [[nodiscard]] Issued issue(const Issue& asked, const Account& by);
-  /// `grants`: with what each candidate is granted, which may tell of health. `seen`: candidates whom a station has said it has.
+  /// `grants`: with what each candidate is granted, which may tell of health. `seen`: candidates
+  /// whom a station has said it has.
   [[nodiscard]] Tickets tickets(bool grants, const std::set<std::string>& seen);
   [[nodiscard]] MadeUp make_up(const MakeUp& asked, const Account& by);
   /// Of who has begun (`seen`, too) only with `begun`.
-  [[nodiscard]] Entered cancel(const CancelTicket& asked, const Account& by, const std::set<std::string>& seen);
+  [[nodiscard]] Entered cancel(const CancelTicket& asked, const Account& by,
+                               const std::set<std::string>& seen);
   [[nodiscard]] BoardShown board(const Board& board, const Inbox& inbox);
   [[nodiscard]] InviteCode invite(const Invite& asked, const Account& by);
   [[nodiscard]] Entered revoke(const RevokeStation& asked, const Account& by);
-  // The day: what candidates are told, pauses, incidents, who is not here, rooms and seats (desk_day.cpp).
+  // The day: what candidates are told, pauses, incidents, who is not here, rooms and seats
+  // (desk_day.cpp).
   [[nodiscard]] Entered announce(const Announce& asked, const Account& by);
   [[nodiscard]] Entered hold(const Hold& asked, const Account& by);
   [[nodiscard]] Entered go_on(const GoOn& asked, const Account& by);
@@ -88,22 +95,30 @@ class Desk {
   [[nodiscard]] Released release(const ReleaseResults& asked, const Account& by);
   [[nodiscard]] Entered retract(const Retract& asked, const Account& by);
   [[nodiscard]] Appeals appeals();
-  /// The ledger's entries in words, the newest first, up to 200. Names, and what was said of incidents, where `names`.
+  /// The ledger's entries in words, the newest first, up to 200. Names, and what was said of
+  /// incidents, where `names`.
   [[nodiscard]] TrailPage trail(const AskTrail& asked, bool names);
   [[nodiscard]] Entered open_appeal(const OpenAppeal& asked, const Account& by);
   [[nodiscard]] Entered answer_appeal(const AnswerAppeal& asked, const Account& by);
   /// Who would be marked anew by `basis`; `entries`: of the ledger then.
-  [[nodiscard]] records::ClassRegrade plan_regrade(const std::string& exam, records::RegradeBasis basis, std::uint64_t& entries);
+  [[nodiscard]] records::ClassRegrade plan_regrade(const std::string& exam,
+                                                   records::RegradeBasis basis,
+                                                   std::uint64_t& entries);
   /// All of it counts from now on. Returns how many were entered, from entry `first` on.
-  std::size_t count_regrade(const records::ClassRegrade& plan, const std::string& reason, const Account& by, std::uint64_t& first);
-  /// How many results of an exam this person has entered by this rubric since the ledger had so many entries; `first`: the first of them.
-  [[nodiscard]] std::uint64_t counted_regrades(const std::string& exam, const std::string& rubric_sha256, const std::string& by,
-                                               std::uint64_t entries, std::uint64_t& first);
+  std::size_t count_regrade(const records::ClassRegrade& plan, const std::string& reason,
+                            const Account& by, std::uint64_t& first);
+  /// How many results of an exam this person has entered by this rubric since the ledger had so
+  /// many entries; `first`: the first of them.
+  [[nodiscard]] std::uint64_t counted_regrades(const std::string& exam,
+                                               const std::string& rubric_sha256,
+                                               const std::string& by, std::uint64_t entries,
+                                               std::uint64_t& first);
   /// Each exam that has something filed.
   [[nodiscard]] std::vector<FiledExam> filed_exams();
   /// A filed recording. Throws Error when there is none, or it was erased.
   [[nodiscard]] Recording recording(const std::string& file_sha256);
-  /// What is released, for Moodle; in a `rehearsal` also what no hand moved, marked, under no number of a candidate.
+  /// What is released, for Moodle; in a `rehearsal` also what no hand moved, marked, under no
+  /// number of a candidate.
   [[nodiscard]] std::string gradebook(bool rehearsal);
   [[nodiscard]] std::string criteria();
 
@@ -112,13 +127,15 @@ class Desk {
   [[nodiscard]] std::size_t entries();
   /// The school's own numbers of all whom the ledger knows.
   [[nodiscard]] std::set<std::string> numbers();
-  [[nodiscard]] std::vector<records::ScoreDue> scores_due(const std::string& exam, const std::string& line_item, bool again);
-  void enter_passback(const records::ScoreDue& sent, const std::string& platform, const std::string& line_item, int status,
-                      const std::string& answer);
+  [[nodiscard]] std::vector<records::ScoreDue> scores_due(const std::string& exam,
+                                                          const std::string& line_item, bool again);
+  void enter_passback(const records::ScoreDue& sent, const std::string& platform,
+                      const std::string& line_item, int status, const std::string& answer);
   /// Sessions whose last score in this column was accepted, and refused.
   [[nodiscard]] std::pair<int, int> passbacks(const std::string& line_item);
   /// Released results of the candidate of that number, of one exam or all.
-  [[nodiscard]] std::vector<OwnResult> own_results(const std::string& number, const std::string& exam);
+  [[nodiscard]] std::vector<OwnResult> own_results(const std::string& number,
+                                                   const std::string& exam);
   /// A recording of his whose result is released. Throws Error when there is none.
   [[nodiscard]] Recording own_recording(const std::string& number, const std::string& file_sha256);
 
@@ -129,7 +146,8 @@ class Desk {
   [[nodiscard]] WordToBegin begin(const AskBegin& asked, const std::string& station);
   /// What the office has to say to a station that has read announcements up to entry `heard`.
   /// `since_utc_ns`: when its candidate signed in there, 0: nobody did.
-  [[nodiscard]] OfficeWord word_for(const std::string& station, std::uint64_t heard, std::int64_t since_utc_ns);
+  [[nodiscard]] OfficeWord word_for(const std::string& station, std::uint64_t heard,
+                                    std::int64_t since_utc_ns);
   /// Whose ticket it is; empty: nobody's.
   [[nodiscard]] std::string candidate_of(const std::string& ticket_nonce);
   /// Entry of a recording; none when it is not filed.
@@ -139,23 +157,29 @@ class Desk {
  private:
   /// The ledger as it is now, for one call, in the name of an actor.
   class Turn;
-  /// Accommodations on a ticket's file, as notes of a session; none where the file is not kept any more.
-  [[nodiscard]] std::vector<std::pair<std::string, std::string>> grant_on(const std::string& nonce) const;
+  /// Accommodations on a ticket's file, as notes of a session; none where the file is not kept any
+  /// more.
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> grant_on(
+      const std::string& nonce) const;
   /// The same for people; empty: none, or the file is not kept any more.
   [[nodiscard]] std::string granted_on(const std::string& nonce) const;
   /// Whether first_grant finds something.
-  [[nodiscard]] bool keeps_grant(const records::Registry& registry, const records::IssuedTicket& ticket) const;
-  /// What a ticket's entry grants, by its file or by the recording that was sat with it. Throws Error when neither is kept.
-  [[nodiscard]] std::vector<std::pair<std::string, std::string>> first_grant(records::Ledger& book, std::uint64_t ticket) const;
-  /// Removes the files of tickets that can no longer be used: their accommodations tell of health. Of one that ran out it is kept for 60 days, for a
-  /// makeup, as long as the candidate is not forgotten.
+  [[nodiscard]] bool keeps_grant(const records::Registry& registry,
+                                 const records::IssuedTicket& ticket) const;
+  /// What a ticket's entry grants, by its file or by the recording that was sat with it. Throws
+  /// Error when neither is kept.
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> first_grant(
+      records::Ledger& book, std::uint64_t ticket) const;
+  /// Removes the files of tickets that can no longer be used: their accommodations tell of health.
+  /// Of one that ran out it is kept for 60 days, for a makeup, as long as the candidate is not
+  /// forgotten.
   void remove_dead_tickets(records::Ledger& book, std::int64_t now_utc_ns) const;
 
   [[nodiscard]] std::vector<Invited> invited_now();
 
   std::mutex lock_, printing_;
   records::Ledger ledger_;
-  OfficePlaces places_;
+  OfficePaths places_;
   std::vector<std::string> exams_;
   std::string id_, school_, public_key_;
 };

@@ -12,7 +12,8 @@ namespace cavum::office {
 
 namespace {
 
-bool is_own(records::Identities& identities, const records::FiledSession& s, const std::string& number) {
+bool is_own(records::Identities& identities, const records::FiledSession& s,
+            const std::string& number) {
   const auto identity = identities.of_pseudonym(s.candidate);
   return !number.empty() && identity && identity->id == number;
 }
@@ -31,14 +32,16 @@ std::set<std::string> Desk::numbers() {
   return out;
 }
 
-std::vector<records::ScoreDue> Desk::scores_due(const std::string& exam, const std::string& line_item, bool again) {
+std::vector<records::ScoreDue> Desk::scores_due(const std::string& exam,
+                                                const std::string& line_item, bool again) {
   Turn turn(*this);
   records::Identities identities = records::sound_identities(turn.book);
-  return records::scores_due(turn.book.content(), turn.book.registry(), identities, exam, line_item, in_words, again);
+  return records::scores_due(turn.book.content(), turn.book.registry(), identities, exam, line_item,
+                             in_words, again);
 }
 
-void Desk::enter_passback(const records::ScoreDue& sent, const std::string& platform, const std::string& line_item, int status,
-                          const std::string& answer) {
+void Desk::enter_passback(const records::ScoreDue& sent, const std::string& platform,
+                          const std::string& line_item, int status, const std::string& answer) {
   Turn turn(*this);
   records::enter_passback(turn.book, sent, platform, line_item, status, answer);
 }
@@ -60,10 +63,14 @@ std::vector<OwnResult> Desk::own_results(const std::string& number, const std::s
   const auto counting = turn.book.registry().counting();
   std::vector<OwnResult> out;
   for (const auto& s : turn.book.registry().sessions) {
-    if (!s.shown->is_object() || (!exam.empty() && s.scenario_id != exam) || !is_own(identities, s, number)) continue;
+    if (!s.shown->is_object() || (!exam.empty() && s.scenario_id != exam) ||
+        !is_own(identities, s, number))
+      continue;
     const records::ExportedGrade grade = records::exported_grade(s, scales);
-    out.push_back({s.scenario_id, grading::verdict_in(*s.shown), number_in(grade.points).value_or(0), number_in(grade.max).value_or(0),
-                   local_text(s.released_utc_ns), counting.at({s.candidate, s.scenario_id}) == s.seq, !s.simulated.empty(),
+    out.push_back({s.scenario_id, grading::verdict_in(*s.shown),
+                   number_in(grade.points).value_or(0), number_in(grade.max).value_or(0),
+                   local_text(s.released_utc_ns),
+                   counting.at({s.candidate, s.scenario_id}) == s.seq, !s.simulated.empty(),
                    s.motion_erased_by || s.result_erased_by ? "" : s.file_sha256});
   }
   return out;

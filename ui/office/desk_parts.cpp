@@ -44,11 +44,19 @@ Roster roster_of(const ClassList& asked) {
 }
 
 Preview shown_roster(const Roster& roster) {
-  Preview out{roster.headed, roster.encoding, std::string(1, roster.separator), roster.rows, roster.columns, {}, {}, {}};
+  Preview out{roster.headed,
+              roster.encoding,
+              std::string(1, roster.separator),
+              roster.rows,
+              roster.columns,
+              {},
+              {},
+              {}};
   out.problems = shown_each(roster.problems);
   for (const auto& p : roster.people)
-    out.people.push_back(
-        {p.id, p.name, p.station, tr(scenarios::accommodations_text(scenarios::granted({}, scenarios::notes_of(p.grant), msg("the list"))))});
+    out.people.push_back({p.id, p.name, p.station,
+                          tr(scenarios::accommodations_text(scenarios::granted(
+                              {}, scenarios::notes_of(p.grant), msg("the list"))))});
   for (const auto& name : records::people_columns()) out.uses.emplace_back(name);
   return out;
 }
@@ -71,15 +79,19 @@ std::int64_t time_limit_s(const std::string& file, const Grants& grants) {
   return (longest + k_ticks_per_second - 1) / k_ticks_per_second;
 }
 
-IssueCommand issue_command(const std::string& exam, const std::string& from, const std::string& until, const std::vector<std::string>& exams) {
+IssueCommand issue_command(const std::string& exam, const std::string& from,
+                           const std::string& until, const std::vector<std::string>& exams) {
   IssueCommand wish;
   for (const auto& file : exams)
     if (exam_facts(file).id == exam) wish.scenario = file;
-  if (wish.scenario.empty()) throw Error(msg("the exam"), msg("is none that this office offers"), msg("choose one of the list"));
+  if (wish.scenario.empty())
+    throw Error(msg("the exam"), msg("is none that this office offers"),
+                msg("choose one of the list"));
   wish.from_utc_ns = records::parse_utc(from, msg("the first moment"));
   wish.until_utc_ns = records::parse_utc(until, msg("the last moment"));
   if (wish.until_utc_ns <= wish.from_utc_ns)
-    throw Error(msg("the last moment"), msg("is not after the first"), msg("give the last moment at which the exam may begin"));
+    throw Error(msg("the last moment"), msg("is not after the first"),
+                msg("give the last moment at which the exam may begin"));
   return wish;
 }
 
@@ -88,9 +100,12 @@ std::optional<std::vector<std::pair<std::string, std::string>>> grant_in(const M
   scenarios::Grant grant;
   if (asked.accommodations == Granting::these) {
     const auto yes = [](bool said) { return said ? std::optional(true) : std::nullopt; };
-    grant = {asked.extra_time_percent, asked.extra_time_s, yes(asked.left_handed), yes(asked.high_contrast)};
-    if (!grant.extra_time_percent && !grant.extra_time_s && !grant.left_handed && !grant.high_contrast)
-      throw Error(msg("the accommodations"), msg("are none"), msg("say what is granted, or that nothing is"));
+    grant = {asked.extra_time_percent, asked.extra_time_s, yes(asked.left_handed),
+             yes(asked.high_contrast)};
+    if (!grant.extra_time_percent && !grant.extra_time_s && !grant.left_handed &&
+        !grant.high_contrast)
+      throw Error(msg("the accommodations"), msg("are none"),
+                  msg("say what is granted, or that nothing is"));
     scenarios::require_sound(grant, msg("the accommodations"));
   }
   auto notes = scenarios::notes_of(grant);
@@ -103,7 +118,8 @@ std::string station_name(const records::Registry& registry, const std::string& k
   return s == nullptr ? "" : s->name;
 }
 
-std::string state_of(const records::Registry& registry, const records::FiledSession& s, const std::set<std::uint64_t>& otherwise) {
+std::string state_of(const records::Registry& registry, const records::FiledSession& s,
+                     const std::set<std::uint64_t>& otherwise) {
   if (s.result_erased_by) return "erased";
   if (s.made_up_by) return "made up";
   if (registry.chosen_instead_of(s) != nullptr) return "not chosen";

@@ -41,12 +41,14 @@ void put_name(Row& row, const std::map<std::string, records::Identity>& people) 
 [[nodiscard]] Roster roster_of(const ClassList& asked);
 [[nodiscard]] Preview shown_roster(const Roster& roster);
 
-/// Of a scenario, its title in the office's language where the file has it. Throws Error when it cannot be read.
+/// Of a scenario, its title in the office's language where the file has it. Throws Error when it
+/// cannot be read.
 [[nodiscard]] ExamFacts exam_facts(const std::string& scenario_file);
 
 /// Notes of sessions, of each what one candidate is granted.
 using Grants = std::vector<std::vector<std::pair<std::string, std::string>>>;
-/// How long an exam of this scenario may take, for who of these has most time, in whole seconds; 0: without limit.
+/// How long an exam of this scenario may take, for who of these has most time, in whole seconds; 0:
+/// without limit.
 [[nodiscard]] std::int64_t time_limit_s(const std::string& scenario_file, const Grants& grants);
 
 /// What tickets are issued for.
@@ -55,17 +57,22 @@ struct IssueCommand {
   std::int64_t from_utc_ns = 0, until_utc_ns = 0;
 };
 /// The exam by its id, one of `exams`. Throws Error.
-[[nodiscard]] IssueCommand issue_command(const std::string& exam, const std::string& from, const std::string& until,
+[[nodiscard]] IssueCommand issue_command(const std::string& exam, const std::string& from,
+                                         const std::string& until,
                                          const std::vector<std::string>& exams);
 
-/// What a request grants, as notes of a session; none: as before. Throws Error for a value that is none.
-[[nodiscard]] std::optional<std::vector<std::pair<std::string, std::string>>> grant_in(const MakeUp& asked);
+/// What a request grants, as notes of a session; none: as before. Throws Error for a value that is
+/// none.
+[[nodiscard]] std::optional<std::vector<std::pair<std::string, std::string>>> grant_in(
+    const MakeUp& asked);
 
 /// A station's name by its key; empty where the ledger knows none.
 [[nodiscard]] std::string station_name(const records::Registry& registry, const std::string& key);
 
-/// made up, released, to decide, questioned, taken back, marked otherwise (one of `otherwise`: Registry::marked_otherwise), not chosen, erased, or
-/// ready: it waits for its release.
-[[nodiscard]] std::string state_of(const records::Registry& registry, const records::FiledSession& session, const std::set<std::uint64_t>& otherwise);
+/// made up, released, to decide, questioned, taken back, marked otherwise (one of `otherwise`:
+/// Registry::marked_otherwise), not chosen, erased, or ready: it waits for its release.
+[[nodiscard]] std::string state_of(const records::Registry& registry,
+                                   const records::FiledSession& session,
+                                   const std::set<std::uint64_t>& otherwise);
 
 }  // namespace cavum::office

@@ -29,8 +29,9 @@ using Steady = std::chrono::steady_clock;
 constexpr auto k_watch = std::chrono::milliseconds(250);
 asio::ssl::context make_context(const CertificateFiles& files) {
   asio::ssl::context context(asio::ssl::context::tls_server);
-  context.set_options(asio::ssl::context::default_workarounds | asio::ssl::context::no_tlsv1 | asio::ssl::context::no_tlsv1_1 |
-                      SSL_OP_NO_RENEGOTIATION | SSL_OP_NO_COMPRESSION | SSL_OP_CIPHER_SERVER_PREFERENCE);
+  context.set_options(asio::ssl::context::default_workarounds | asio::ssl::context::no_tlsv1 |
+                      asio::ssl::context::no_tlsv1_1 | SSL_OP_NO_RENEGOTIATION |
+                      SSL_OP_NO_COMPRESSION | SSL_OP_CIPHER_SERVER_PREFERENCE);
   SSL_CTX_set_mode(context.native_handle(), SSL_MODE_RELEASE_BUFFERS);
   SSL_CTX_set_cipher_list(context.native_handle(), "ECDHE+AESGCM:ECDHE+CHACHA20");
   error_code wrong;
@@ -40,36 +41,44 @@ asio::ssl::context make_context(const CertificateFiles& files) {
                 msg("give a chain in PEM, the server's own first"));
   context.use_private_key_file(files.key, asio::ssl::context::pem, wrong);
   if (wrong)
-    throw Error(files.key, msg("is no key that can be used: {}", wrong.message()), msg("give the certificate's key in PEM, without a password"));
+    throw Error(files.key, msg("is no key that can be used: {}", wrong.message()),
+                msg("give the certificate's key in PEM, without a password"));
   if (SSL_CTX_check_private_key(context.native_handle()) != 1)
-    throw Error(files.key, msg("is not the key of {}", files.certificate), msg("name files that belong together"));
+    throw Error(files.key, msg("is not the key of {}", files.certificate),
+                msg("name files that belong together"));
   return context;
 }
 
 }  // namespace
 
 struct HttpServer::Parts {
-  /// How far a connection has come. Whoever is trusted keeps its place; of the others the least gives way when there is no more room.
+  /// How far a connection has come. Whoever is trusted keeps its place; of the others the least
+  /// gives way when there is no more room.
   enum class Stage { silent, speaks, asks, trusted, leaves };
-  /// Of a connection, for whoever watches the clock: its socket is shut when the time is over, which ends every read and write on it.
+  /// Of a connection, for whoever watches the clock: its socket is shut when the time is over,
+  /// which ends every read and write on it.
   struct Open {
     int socket = -1;
     Steady::time_point deadline;
     Stage stage = Stage::silent;
   };
 
-  Parts(const std::string& address, std::uint16_t port, const CertificateFiles& files, Welcome handler, const HttpLimits& allowed)
+  Parts(const std::string& address, std::uint16_t port, const CertificateFiles& files,
+        Welcome handler, const HttpLimits& allowed)
       : welcome(std::move(handler)), limits(allowed), tls(make_context(files)), acceptor(context) {
     error_code wrong;
     const auto place = asio::ip::make_address(address, wrong);
-    if (wrong) throw Error("--listen " + address, msg("is no address"), msg("give one such as 127.0.0.1:8443, or [::1]:8443"));
+    if (wrong)
+      throw Error("--listen " + address, msg("is no address"),
+                  msg("give one such as 127.0.0.1:8443, or [::1]:8443"));
     const Tcp::endpoint end(place, port);
     acceptor.open(end.protocol(), wrong);
     if (!wrong) acceptor.set_option(Tcp::acceptor::reuse_address(true), wrong);
     if (!wrong) acceptor.bind(end, wrong);
     if (!wrong) acceptor.listen(asio::socket_base::max_listen_connections, wrong);
     if (wrong)
-      throw Error(fmt::format("--listen {}:{}", address, port), msg("cannot be listened at: {}", wrong.message()), msg("name another place"));
+      throw Error(fmt::format("--listen {}:{}", address, port),
+                  msg("cannot be listened at: {}", wrong.message()), msg("name another place"));
     watcher = std::thread([this] { watch(); });
     accepter = std::thread([this] { accept(); });
   }
@@ -97,22 +106,28 @@ struct HttpServer::Parts {
       }
       std::unique_lock guard(lock);
       if (!room(guard)) continue;  // closed as it came
-      const auto place = open.insert(open.end(), {socket.native_handle(), Steady::now() + std::chrono::seconds(limits.handshake_s), Stage::silent});
+      const auto place = open.insert(
+          open.end(), {socket.native_handle(),
+                       Steady::now() + std::chrono::seconds(limits.handshake_s), Stage::silent});
       guard.unlock();
       try {
-        std::thread([this, place, moved = std::move(socket)]() mutable { serve(std::move(moved), place); }).detach();
+        std::thread([this, place, moved = std::move(socket)]() mutable {
+          serve(std::move(moved), place);
+        }).detach();
       } catch (const std::system_error&) {  // no thread is to be had
         forget(place);
       }
     }
   }
 
-  /// Makes room for one more, where there is none, and nobody's address counts: the oldest of those that have not said a byte leaves, or else of
-  /// those whose first head was not read yet, or else of those who asked as nobody. False: all that are here are trusted.
+  /// Makes room for one more, where there is none, and nobody's address counts: the oldest of those
+  /// that have not said a byte leaves, or else of those whose first head was not read yet, or else
+  /// of those who asked as nobody. False: all that are here are trusted.
   bool room(std::unique_lock<std::mutex>& guard) {
     const auto free = [&] { return open.size() < limits.most_connections; };
     if (free()) return true;
-    const auto least = std::min_element(open.begin(), open.end(), [](const Open& a, const Open& b) { return a.stage < b.stage; });
+    const auto least = std::min_element(
+        open.begin(), open.end(), [](const Open& a, const Open& b) { return a.stage < b.stage; });
     if (least->stage >= Stage::trusted) return false;
     least->stage = Stage::leaves;
     ::shutdown(least->socket, SHUT_RDWR);
@@ -131,7 +146,8 @@ struct HttpServer::Parts {
   /// Time for who has asked something; the others keep what they had when they came.
   void allow(std::list<Open>::iterator place, std::int64_t seconds) {
     const std::lock_guard guard(lock);
-    if (place->stage == Stage::asks || place->stage == Stage::trusted) place->deadline = Steady::now() + std::chrono::seconds(seconds);
+    if (place->stage == Stage::asks || place->stage == Stage::trusted)
+      place->deadline = Steady::now() + std::chrono::seconds(seconds);
   }
   void reach(std::list<Open>::iterator place, Stage stage) {
     const std::lock_guard guard(lock);
@@ -148,13 +164,16 @@ struct HttpServer::Parts {
       Tls stream(std::move(socket), tls);
       try {
         error_code wrong;
-        const std::string address = stream.next_layer().remote_endpoint(wrong).address().to_string();
+        const std::string address =
+            stream.next_layer().remote_endpoint(wrong).address().to_string();
         stream.next_layer().set_option(Tcp::no_delay(true), wrong);
         stream.next_layer().wait(Tcp::socket::wait_read, wrong);
         reach(place, Stage::speaks);
         stream.handshake(asio::ssl::stream_base::server, wrong);
         if (!wrong) {
-          const std::function<void(std::int64_t)> allows = [&](std::int64_t seconds) { allow(place, seconds); };
+          const std::function<void(std::int64_t)> allows = [&](std::int64_t seconds) {
+            allow(place, seconds);
+          };
           const Welcome knows = [&](const Head& head) {
             reach(place, Stage::asks);
             auto exchange = welcome(head);
@@ -185,7 +204,8 @@ struct HttpServer::Parts {
   std::thread watcher, accepter;
 };
 
-HttpServer::HttpServer(const std::string& address, std::uint16_t port, const CertificateFiles& files, Welcome welcome, const HttpLimits& limits)
+HttpServer::HttpServer(const std::string& address, std::uint16_t port,
+                       const CertificateFiles& files, Welcome welcome, const HttpLimits& limits)
     : parts_(std::make_unique<Parts>(address, port, files, std::move(welcome), limits)) {}
 HttpServer::~HttpServer() = default;
 std::uint16_t HttpServer::port() const noexcept {

@@ -1,6 +1,7 @@
-// HTTPS (Boost.Beast, OpenSSL): connections, limits and time. It knows no ledger and no person: what a request means, an Exchange says, made when the
-// head was read and before any of the body is. A thread for each connection, at most `most_connections`; one that is too slow is cut off by its
-// deadline, whatever it does.
+// HTTPS (Boost.Beast, OpenSSL): connections, limits and time. It knows no ledger and no person:
+// what a request means, an Exchange says, made when the head was read and before any of the body
+// is. A thread for each connection, at most `most_connections`; one that is too slow is cut off by
+// its deadline, whatever it does.
 #pragma once
 
 #include <atomic>
@@ -34,8 +35,10 @@ using WriteEvent = std::function<bool(std::string_view event)>;
 struct Reply {
   int status = 200;
   std::string type = "application/json", body = {};
-  std::vector<std::pair<std::string, std::string>> fields = {};  ///< beside those that every reply has, or in their place
-  std::function<void(const WriteEvent&)> events = {};            ///< server-sent events in the place of a body
+  std::vector<std::pair<std::string, std::string>> fields =
+      {};  ///< beside those that every reply has, or in their place
+  std::function<void(const WriteEvent&)> events =
+      {};  ///< server-sent events in the place of a body
 };
 
 /// One request and its reply.
@@ -44,7 +47,8 @@ class Exchange {
   virtual ~Exchange() = default;
   /// What is answered without reading any of the body: the request is refused.
   [[nodiscard]] virtual const Reply* refusal() const = 0;
-  /// Somebody who is signed in asks, or a station that is enrolled: the connection keeps its place from then on.
+  /// Somebody who is signed in asks, or a station that is enrolled: the connection keeps its place
+  /// from then on.
   [[nodiscard]] virtual bool trusted() const = 0;
   [[nodiscard]] virtual std::uint64_t largest_bytes() const = 0;
   virtual void take(std::string_view part) = 0;
@@ -64,8 +68,10 @@ struct HttpLimits {
 
 class HttpServer {
  public:
-  /// Listens from now on, at port 0 on any that is free. Throws Error when the place is taken, or the certificate cannot be used.
-  HttpServer(const std::string& address, std::uint16_t port, const CertificateFiles& files, Welcome welcome, const HttpLimits& limits = {});
+  /// Listens from now on, at port 0 on any that is free. Throws Error when the place is taken, or
+  /// the certificate cannot be used.
+  HttpServer(const std::string& address, std::uint16_t port, const CertificateFiles& files,
+             Welcome welcome, const HttpLimits& limits = {});
   /// Ends all connections.
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;

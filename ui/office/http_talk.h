@@ -1,5 +1,5 @@
-// What is said over one connection, in HTTP/1.1 (Boost.Beast), over any stream: heads, lengths of bodies, replies. The server gives it TLS, a fuzzer
-// bytes.
+// What is said over one connection, in HTTP/1.1 (Boost.Beast), over any stream: heads, lengths of
+// bodies, replies. The server gives it TLS, a fuzzer bytes.
 #pragma once
 
 #include <fmt/core.h>
@@ -59,38 +59,46 @@ inline std::optional<Head> head_of(const http::request_header<>& read, const std
   head.path = target.substr(0, question);
   if (question != std::string::npos) head.query = target.substr(question + 1);
   for (const auto& field : read)
-    if (!head.fields.emplace(small(field.name_string()), std::string(field.value())).second) return std::nullopt;
+    if (!head.fields.emplace(small(field.name_string()), std::string(field.value())).second)
+      return std::nullopt;
   return head;
 }
 
-inline Reply refused(int status, const char* why) { return {status, "application/json", fmt::format(R"({{"error":"{}"}})", why)}; }
+inline Reply refused(int status, const char* why) {
+  return {status, "application/json", fmt::format(R"({{"error":"{}"}})", why)};
+}
 
-/// What a conversation needs from whoever holds the connection; all of it outlives the conversation.
+/// What a conversation needs from whoever holds the connection; all of it outlives the
+/// conversation.
 struct Needs {
   const Welcome& welcome;
   const HttpLimits& limits;
-  const std::string& address;                      ///< of who asks
-  const std::function<void(std::int64_t)>& allow;  ///< so many seconds from now on, whatever was allowed before
+  const std::string& address;  ///< of who asks
+  const std::function<void(std::int64_t)>&
+      allow;  ///< so many seconds from now on, whatever was allowed before
   const std::atomic<bool>& stopping;
 };
 
 template <class Stream>
 class Talk {
  public:
-  Talk(Stream& stream, const Needs& needs) : stream_(stream), needs_(needs), buffer_(k_piece_bytes) {}
+  Talk(Stream& stream, const Needs& needs)
+      : stream_(stream), needs_(needs), buffer_(k_piece_bytes) {}
   /// One request after the other, until the other side, an error or the server ends it.
   void run() {
     for (bool goes_on = true; goes_on && !needs_.stopping;) {
       needs_.allow(needs_.limits.head_s);
       http::request_parser<http::buffer_body> parser;
       parser.header_limit(needs_.limits.head_bytes);
-      parser.body_limit(std::numeric_limits<std::uint64_t>::max());  // its route says, once the head was read
+      parser.body_limit(
+          std::numeric_limits<std::uint64_t>::max());  // its route says, once the head was read
       error_code wrong;
       http::read_header(stream_, buffer_, parser, wrong);
       if (wrong == http::error::header_limit)
         static_cast<void>(write(refused(431, "the head of the request is too large"), false));
-      else if (wrong && wrong.category() == http::make_error_code(http::error::bad_method).category() && wrong != http::error::end_of_stream &&
-               wrong != http::error::partial_message)
+      else if (wrong &&
+               wrong.category() == http::make_error_code(http::error::bad_method).category() &&
+               wrong != http::error::end_of_stream && wrong != http::error::partial_message)
         static_cast<void>(write(refused(400, "this is no request of HTTP/1.1"), false));
       if (wrong) return;
       head_alone_ = parser.get().method() == http::verb::head;
@@ -106,18 +114,25 @@ class Talk {
   bool answer(http::request_parser<http::buffer_body>& parser) {
     auto head = head_of(parser.get(), needs_.address);
     if (!head) return write(refused(400, "a field stands twice, or this is no path"), false);
-    if (parser.get().version() == k_http_1_1 && !head->fields.contains("host")) return write(refused(400, "say for whom this is (Host)"), false);
+    if (parser.get().version() == k_http_1_1 && !head->fields.contains("host"))
+      return write(refused(400, "say for whom this is (Host)"), false);
     if (const auto length = head->fields.find("content-length");
         head->fields.contains("transfer-encoding") ||
-        (length != head->fields.end() && length->second.find_first_not_of("0123456789") != std::string::npos))
+        (length != head->fields.end() &&
+         length->second.find_first_not_of("0123456789") != std::string::npos))
       return write(refused(411, "say how long the body is (Content-Length)"), false);
-    if (parser.chunked()) return write(refused(411, "say how long the body is (Content-Length)"), false);
-    if (head_alone_) head->method = "GET";  // answered as that is, without what would come after the head
+    if (parser.chunked())
+      return write(refused(411, "say how long the body is (Content-Length)"), false);
+    if (head_alone_)
+      head->method = "GET";  // answered as that is, without what would come after the head
     const std::unique_ptr<Exchange> exchange = needs_.welcome(*head);
     const std::uint64_t length = parser.content_length() ? *parser.content_length() : 0;
-    if (exchange->refusal() != nullptr) return write(*exchange->refusal(), length == 0 && parser.keep_alive());
-    if (length > exchange->largest_bytes()) return write(refused(413, "the body is too large"), false);
-    needs_.allow(needs_.limits.body_s + static_cast<std::int64_t>(length) / needs_.limits.slowest_bytes_s);
+    if (exchange->refusal() != nullptr)
+      return write(*exchange->refusal(), length == 0 && parser.keep_alive());
+    if (length > exchange->largest_bytes())
+      return write(refused(413, "the body is too large"), false);
+    needs_.allow(needs_.limits.body_s +
+                 static_cast<std::int64_t>(length) / needs_.limits.slowest_bytes_s);
     parser.body_limit(length);
     std::array<char, k_piece_bytes> piece;  // NOLINT: filled below
     for (error_code wrong; !parser.is_done();) {
@@ -143,7 +158,8 @@ class Talk {
   }
 
   [[nodiscard]] bool write(const Reply& reply, bool keep_alive) {
-    needs_.allow(needs_.limits.write_s + static_cast<std::int64_t>(reply.body.size()) / needs_.limits.slowest_bytes_s);
+    needs_.allow(needs_.limits.write_s +
+                 static_cast<std::int64_t>(reply.body.size()) / needs_.limits.slowest_bytes_s);
     http::response<http::string_body> out(header_of(reply), reply.body);
     out.keep_alive(keep_alive);
     out.prepare_payload();

@@ -1,5 +1,6 @@
-// Exams that stations hand in: each is streamed to disk, then verified and filed by a thread of its own. A station is told "filed" only when the
-// entry stands in the ledger; a server that is killed in between goes on with what lies on disk, and what does not is sent again.
+// Exams that stations hand in: each is streamed to disk, then verified and filed by a thread of its
+// own. A station is told "filed" only when the entry stands in the ledger; a server that is killed
+// in between goes on with what lies on disk, and what does not is sent again.
 #pragma once
 
 #include <sodium.h>
@@ -21,8 +22,10 @@
 
 namespace cavum::office {
 
-/// The same message, in which a place on this computer, and what lies below it, is called otherwise.
-[[nodiscard]] Message with_place_as(const Message& message, const std::string& place, const Message& name);
+/// The same message, in which a place on this computer, and what lies below it, is called
+/// otherwise.
+[[nodiscard]] Message with_location_as(const Message& message, const std::string& place,
+                                       const Message& name);
 
 /// An exam that is on its way to disk.
 class Arriving {
@@ -33,7 +36,8 @@ class Arriving {
   Arriving(const Arriving&) = delete;
   Arriving& operator=(const Arriving&) = delete;
   void take(std::string_view part);
-  /// On disk, under its hash. Throws Error when the disk refused some of it, or the hash is another.
+  /// On disk, under its hash. Throws Error when the disk refused some of it, or the hash is
+  /// another.
   void keep();
 
  private:
@@ -49,14 +53,17 @@ struct Handed {
   State state = State::unknown;
   std::uint64_t entry = 0;          ///< of the ledger, when it is filed
   records::Findings findings = {};  ///< why it was refused
-  std::string station = {};         ///< key of who handed it in, or of who sealed it; empty: neither is known
-  std::string candidate = {};       ///< of one that was refused and can be read; else empty
+  std::string station =
+      {};  ///< key of who handed it in, or of who sealed it; empty: neither is known
+  std::string candidate = {};  ///< of one that was refused and can be read; else empty
 };
 
 class Inbox {
  public:
-  /// `folder` keeps what waits; what was refused goes to `folder`/refused. `filed` is called after each that is done, by the thread that files.
-  Inbox(std::string folder, std::string ledger_folder, SigningKey school, records::FilingOptions options, std::function<void()> filed);
+  /// `folder` keeps what waits; what was refused goes to `folder`/refused. `filed` is called after
+  /// each that is done, by the thread that files.
+  Inbox(std::string folder, std::string ledger_folder, SigningKey school,
+        records::FilingOptions options, std::function<void()> filed);
   ~Inbox();
   Inbox(const Inbox&) = delete;
   Inbox& operator=(const Inbox&) = delete;
@@ -80,8 +87,10 @@ class Inbox {
   [[nodiscard]] bool file(const std::string& sha256);
   void refuse(const std::string& sha256, Handed why);
   /// For people elsewhere: without this computer's folders.
-  [[nodiscard]] Message without_places(const Message& message, const std::string& sha256) const;
-  [[nodiscard]] std::string path_of(const std::string& sha256) const { return folder_ + "/" + sha256 + ".cavum"; }
+  [[nodiscard]] Message without_locations(const Message& message, const std::string& sha256) const;
+  [[nodiscard]] std::string path_of(const std::string& sha256) const {
+    return folder_ + "/" + sha256 + ".cavum";
+  }
 
   std::string folder_, ledger_folder_;
   SigningKey school_;

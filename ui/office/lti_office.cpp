@@ -20,7 +20,11 @@ constexpr std::int64_t k_visit_s = 3600;
 constexpr std::size_t k_max_visits = 5000, k_cookie_bytes = 32;
 constexpr char k_login_cookie[] = "__Host-cavum-login";
 
-std::int64_t clock_s() { return std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+std::int64_t clock_s() {
+  return std::chrono::duration_cast<std::chrono::seconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
 std::int64_t utc_s() { return read_clocks().utc_ns / 1'000'000'000; }
 
 std::string lti_page(const std::string& title, const std::string& body) {
@@ -33,9 +37,10 @@ std::string paragraph(const std::string& text) { return "<p>" + xml_text(text) +
 
 /// It opens in a window of its own, where cookies of this office are no third party's.
 std::string in_a_window(const std::string& fields) {
-  return paragraph(tr("Cavum opens in a window of its own: inside the platform's page, browsers keep no sign-in.")) +
-         "<p><a target=\"_blank\" rel=\"noopener\" href=\"" + std::string(k_lti_login) + "?" + xml_text(fields) + "\">" +
-         xml_text(tr("Open Cavum in a new window")) + "</a></p>";
+  return paragraph(tr(
+             "Cavum opens in a window of its own: inside the platform's page, browsers keep no sign-in.")) +
+         "<p><a target=\"_blank\" rel=\"noopener\" href=\"" + std::string(k_lti_login) + "?" +
+         xml_text(fields) + "\">" + xml_text(tr("Open Cavum in a new window")) + "</a></p>";
 }
 
 bool is_framed(const Head& head) {
@@ -43,8 +48,10 @@ bool is_framed(const Head& head) {
   return where == "iframe" || where == "frame" || where == "embed" || where == "object";
 }
 
-std::string cookie_to_keep(const char* name, const std::string& value, std::int64_t seconds, const char* same_site) {
-  return fmt::format("{}={}; Path=/; Max-Age={}; Secure; HttpOnly; SameSite={}", name, value, seconds, same_site);
+std::string cookie_to_keep(const char* name, const std::string& value, std::int64_t seconds,
+                           const char* same_site) {
+  return fmt::format("{}={}; Path=/; Max-Age={}; Secure; HttpOnly; SameSite={}", name, value,
+                     seconds, same_site);
 }
 
 Reply go_to(int status, const std::string& address) {
@@ -54,12 +61,15 @@ Reply go_to(int status, const std::string& address) {
 }
 
 std::string verdict_in_words(grading::Verdict v) {
-  return v == grading::Verdict::pass ? tr("passed") : v == grading::Verdict::fail ? tr("failed") : tr("a person decides");
+  return v == grading::Verdict::pass   ? tr("passed")
+         : v == grading::Verdict::fail ? tr("failed")
+                                       : tr("a person decides");
 }
 
 }  // namespace
 
-LtiOffice::LtiOffice(Desk& desk, const std::string& home, Reports::Make report, std::function<std::optional<Account>(const std::string&)> account,
+LtiOffice::LtiOffice(Desk& desk, const std::string& home, Reports::Make report,
+                     std::function<std::optional<Account>(const std::string&)> account,
                      std::function<std::string(const Account&)> begin_sign_in)
     : desk_(desk),
       platforms_(home + "/platforms.json"),
@@ -74,11 +84,14 @@ Reply LtiOffice::as_page(const Say& say) const {
   try {
     return say();
   } catch (const Error& wrong) {
-    return framed(400, lti_page(tr("Cavum cannot be opened"), paragraph(one_line(tr(wrong.message())))));
+    return framed(400,
+                  lti_page(tr("Cavum cannot be opened"), paragraph(one_line(tr(wrong.message())))));
   }
 }
 
-Reply LtiOffice::answer(route::lti_keys, const Call&) { return json_reply(public_key_set(platforms_.keys())); }
+Reply LtiOffice::answer(route::lti_keys, const Call&) {
+  return json_reply(public_key_set(platforms_.keys()));
+}
 Reply LtiOffice::answer(route::lti_login, const Call& c) {
   return as_page([&] { return login(c, c.head.query); });
 }
@@ -111,7 +124,8 @@ LtiSetUp LtiOffice::answer(route::remove_platform, const RemovePlatform& asked, 
 
 LtiSetUp LtiOffice::answer(route::link_person, const LinkPerson& asked, const Call& c) {
   if (!asked.account.empty() && !account_(asked.account))
-    throw Error(msg("account {}", one_line(asked.account)), msg("is not there"), msg("see `cavum serve --accounts`"));
+    throw Error(msg("account {}", one_line(asked.account)), msg("is not there"),
+                msg("see `cavum serve --accounts`"));
   platforms_.link(asked.issuer, asked.client_id, asked.sub, asked.account);
   return answer(route::lti(), c);
 }
@@ -132,8 +146,10 @@ Reply LtiOffice::framed(int status, const std::string& html) const {
     for (const std::string& origin : {origin_of(p.issuer), origin_of(p.auth_endpoint)})
       if (places.find(origin + " ") == std::string::npos) places += origin + " ";
   Reply reply{status, "text/html; charset=utf-8", html};
-  reply.fields.emplace_back("Content-Security-Policy", "default-src 'none'; style-src 'self'; form-action 'none'; base-uri 'none'; frame-ancestors " +
-                                                           (places.empty() ? "'none'" : places));
+  reply.fields.emplace_back(
+      "Content-Security-Policy",
+      "default-src 'none'; style-src 'self'; form-action 'none'; base-uri 'none'; frame-ancestors " +
+          (places.empty() ? "'none'" : places));
   return reply;
 }
 
@@ -142,7 +158,8 @@ Reply LtiOffice::login(const Call& call, const std::string& fields) {
   if (is_framed(call.head)) return framed(200, lti_page("Cavum", in_a_window(fields)));
   Reply reply = go_to(302, answer.address);
   // the platform's page sends it back by a form, which only a cookie of SameSite=None goes with
-  reply.fields.emplace_back("Set-Cookie", cookie_to_keep(k_login_cookie, answer.cookie, k_login_s, "None"));
+  reply.fields.emplace_back("Set-Cookie",
+                            cookie_to_keep(k_login_cookie, answer.cookie, k_login_s, "None"));
   return reply;
 }
 
@@ -158,7 +175,9 @@ Reply LtiOffice::launch(const Call& call) {
     std::optional<Account> account;
     if (linked != come.platform.accounts.end()) account = account_(linked->second);
     if (!account) {  // a name that no account can have
-      account = Account{come.platform.name + "\t" + (come.name.empty() ? come.sub : come.name) + "\t" + come.sub, Role::reader, "", ""};
+      account = Account{
+          come.platform.name + "\t" + (come.name.empty() ? come.sub : come.name) + "\t" + come.sub,
+          Role::reader, "", ""};
       const std::lock_guard guard(lock_);
       if (teaching_.size() >= k_max_visits) teaching_.clear();
       teaching_[account->name] = {*account, come.platform.issuer, come.platform.client_id};
@@ -173,9 +192,11 @@ Reply LtiOffice::launch(const Call& call) {
     const std::int64_t now = clock_s();
     std::erase_if(visits_, [&](const auto& one) { return now - one.second.since_s > k_visit_s; });
     if (visits_.size() >= k_max_visits)
-      visits_.erase(
-          std::min_element(visits_.begin(), visits_.end(), [](const auto& a, const auto& b) { return a.second.since_s < b.second.since_s; }));
-    visits_[to_hex(sha256(cookie))] = {come.id, come.name, come.exam, come.platform.issuer, come.platform.client_id, now};
+      visits_.erase(std::min_element(
+          visits_.begin(), visits_.end(),
+          [](const auto& a, const auto& b) { return a.second.since_s < b.second.since_s; }));
+    visits_[to_hex(sha256(cookie))] = {
+        come.id, come.name, come.exam, come.platform.issuer, come.platform.client_id, now};
   }
   Reply reply = go_to(303, route::own_results::row.path_of());
   reply.fields.emplace_back("Set-Cookie", cookie_to_keep(k_visit_cookie, cookie, k_visit_s, "Lax"));
@@ -201,7 +222,8 @@ std::optional<Account> LtiOffice::reader(const std::string& name) {
     if (at == teaching_.end()) return std::nullopt;
     found = at->second;
   }
-  return platforms_.of(found->issuer, found->client_id) ? std::optional(found->account) : std::nullopt;
+  return platforms_.of(found->issuer, found->client_id) ? std::optional(found->account)
+                                                        : std::nullopt;
 }
 
 Reply LtiOffice::own_results(const Call& call) {
@@ -215,12 +237,15 @@ Reply LtiOffice::own_results(const Call& call) {
   } else {
     body += "<ul>";
     for (const OwnResult& r : results) {
-      const std::string text = tr("{}: {}, {} of {} points, released {}", as_is(r.exam), as_is(verdict_in_words(r.verdict)), as_points(r.points),
+      const std::string text = tr("{}: {}, {} of {} points, released {}", as_is(r.exam),
+                                  as_is(verdict_in_words(r.verdict)), as_points(r.points),
                                   as_number(r.max), as_is(r.released));
       body += "<li>" + xml_text(text);
       if (r.simulated) body += ". " + xml_text(tr("A rehearsal: no student sat this."));
       if (!r.counts) body += ". " + xml_text(tr("A later attempt counts."));
-      if (!r.sha256.empty()) body += " <a href=\"" + route::own_report::row.path_of(r.sha256) + "\">" + xml_text(tr("Report")) + "</a>";
+      if (!r.sha256.empty())
+        body += " <a href=\"" + route::own_report::row.path_of(r.sha256) + "\">" +
+                xml_text(tr("Report")) + "</a>";
       body += "</li>";
     }
     body += "</ul>";

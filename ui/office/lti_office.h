@@ -1,4 +1,5 @@
-// The office for learning platforms (LTI 1.3): logins and launches, what a learner and an instructor see, set-up by an officer, scores that are sent.
+// The office for learning platforms (LTI 1.3): logins and launches, what a learner and an
+// instructor see, set-up by an officer, scores that are sent.
 #pragma once
 
 #include <map>
@@ -23,8 +24,10 @@ struct LtiVisit {
 
 class LtiOffice {
  public:
-  /// `home`: the office's folder. `report`: the student's report of a recording. `begin_sign_in`: for an account, gives its cookie field.
-  LtiOffice(Desk& desk, const std::string& home, Reports::Make report, std::function<std::optional<Account>(const std::string&)> account,
+  /// `home`: the office's folder. `report`: the student's report of a recording. `begin_sign_in`:
+  /// for an account, gives its cookie field.
+  LtiOffice(Desk& desk, const std::string& home, Reports::Make report,
+            std::function<std::optional<Account>(const std::string&)> account,
             std::function<std::string(const Account&)> begin_sign_in);
 
   // Handlers of its routes.
@@ -36,7 +39,8 @@ class LtiOffice {
   [[nodiscard]] Reply answer(route::own_report, const Call& call);
   [[nodiscard]] LtiSetUp answer(route::lti, const Call& call);
   [[nodiscard]] LtiSetUp answer(route::set_platform, const SetPlatform& asked, const Call& call);
-  [[nodiscard]] LtiSetUp answer(route::remove_platform, const RemovePlatform& asked, const Call& call);
+  [[nodiscard]] LtiSetUp answer(route::remove_platform, const RemovePlatform& asked,
+                                const Call& call);
   [[nodiscard]] LtiSetUp answer(route::link_person, const LinkPerson& asked, const Call& call);
   [[nodiscard]] LtiSetUp answer(route::new_key, const WithCode& asked, const Call& call);
   [[nodiscard]] Nothing answer(route::send_scores, const Call& call);

@@ -1,5 +1,6 @@
-// Sends scores to learning platforms (Assignment and Grade Services 2.0), in a thread of its own: what is due by the ledger, once each; a platform
-// that is down is tried again later and later. What a platform has answered is an entry of the ledger.
+// Sends scores to learning platforms (Assignment and Grade Services 2.0), in a thread of its own:
+// what is due by the ledger, once each; a platform that is down is tried again later and later.
+// What a platform has answered is an entry of the ledger.
 #pragma once
 
 #include <atomic>
@@ -35,9 +36,12 @@ class LtiSender {
   void round(bool asked, bool again);
   void send(const LtiPlatform& platform, const LtiCourse& course, bool again);
   [[nodiscard]] std::string token_of(const LtiPlatform& platform, const LtiCourse& course);
-  [[nodiscard]] std::string item_of(const LtiPlatform& platform, const LtiCourse& course, double maximum);
-  [[nodiscard]] PlatformAnswer ask(const LtiPlatform& platform, const LtiCourse& course, const std::string& method, const std::string& address,
-                                   const std::map<std::string, std::string>& fields, const std::string& body = "");
+  [[nodiscard]] std::string item_of(const LtiPlatform& platform, const LtiCourse& course,
+                                    double maximum);
+  [[nodiscard]] PlatformAnswer ask(const LtiPlatform& platform, const LtiCourse& course,
+                                   const std::string& method, const std::string& address,
+                                   const std::map<std::string, std::string>& fields,
+                                   const std::string& body = "");
 
   struct Token {
     std::string text;

@@ -30,18 +30,20 @@ const char* letters(const Bytes& bytes) { return reinterpret_cast<const char*>(b
 
 std::string one_time_code(const Bytes& secret, std::uint64_t counter, int digits) {
   std::array<char, 9> code{};
-  if (oath_hotp_generate(letters(secret), secret.size(), counter, static_cast<unsigned>(digits), false, OATH_HOTP_DYNAMIC_TRUNCATION, code.data()) !=
-      OATH_OK)
+  if (oath_hotp_generate(letters(secret), secret.size(), counter, static_cast<unsigned>(digits),
+                         false, OATH_HOTP_DYNAMIC_TRUNCATION, code.data()) != OATH_OK)
     throw Error("liboath", msg("does not start"), msg("check the installation of liboath"));
   return code.data();
 }
 
-std::optional<std::uint64_t> counter_of_code(const Bytes& secret, const std::string& code, std::int64_t unix_s) {
+std::optional<std::uint64_t> counter_of_code(const Bytes& secret, const std::string& code,
+                                             std::int64_t unix_s) {
   const auto now = static_cast<std::uint64_t>(unix_s / k_code_step_s);
   std::optional<std::uint64_t> found;
   for (std::uint64_t counter = now - 1; counter <= now + 1; ++counter) {
     const std::string right = one_time_code(secret, counter);
-    if (code.size() == right.size() && sodium_memcmp(code.data(), right.data(), right.size()) == 0) found = counter;
+    if (code.size() == right.size() && sodium_memcmp(code.data(), right.data(), right.size()) == 0)
+      found = counter;
   }
   return found;
 }
@@ -49,7 +51,8 @@ std::optional<std::uint64_t> counter_of_code(const Bytes& secret, const std::str
 UsedCodes::UsedCodes(std::string path) : path_(std::move(path)) {
   if (!std::filesystem::exists(path_)) return;
   const nlohmann::json kept = parse_json(read_text_file(path_), path_);
-  for (const auto& [account, counter] : kept.items()) last_[account] = require_whole<std::uint64_t>(kept, account.c_str(), path_);
+  for (const auto& [account, counter] : kept.items())
+    last_[account] = require_whole<std::uint64_t>(kept, account.c_str(), path_);
 }
 
 bool UsedCodes::use(const std::string& account, std::uint64_t counter) {
@@ -71,7 +74,8 @@ Bytes new_code_secret() {
 
 std::string base32(const Bytes& bytes) {
   char* text = nullptr;
-  if (oath_base32_encode(letters(bytes), bytes.size(), &text, nullptr) != OATH_OK) throw std::bad_alloc();
+  if (oath_base32_encode(letters(bytes), bytes.size(), &text, nullptr) != OATH_OK)
+    throw std::bad_alloc();
   const Made made(text, std::free);
   const std::string padded = text;
   return padded.substr(0, padded.find('='));

@@ -20,11 +20,15 @@ struct Invited {
 /// By time, room, station and number.
 [[nodiscard]] std::vector<Invited> invited(records::Ledger& ledger, std::int64_t now_utc_ns);
 
-// PDF, times in this computer's time zone, which is named. Each throws Error when nobody is invited.
-[[nodiscard]] std::string candidate_cards(const std::string& school, const std::vector<Invited>& people);
-[[nodiscard]] std::string sheet_to_sign(const std::string& school, const std::vector<Invited>& people);
+// PDF, times in this computer's time zone, which is named. Each throws Error when nobody is
+// invited.
+[[nodiscard]] std::string candidate_cards(const std::string& school,
+                                          const std::vector<Invited>& people);
+[[nodiscard]] std::string sheet_to_sign(const std::string& school,
+                                        const std::vector<Invited>& people);
 
-/// "21 Nov 2026, 09:00 (CET, UTC+01:00)" as ISO date: "2026-11-21 09:00 CET (UTC+01:00)", in this computer's time zone.
+/// "21 Nov 2026, 09:00 (CET, UTC+01:00)" as ISO date: "2026-11-21 09:00 CET (UTC+01:00)", in this
+/// computer's time zone.
 [[nodiscard]] std::string local_text(std::int64_t utc_ns);
 
 }  // namespace cavum::office

@@ -23,8 +23,12 @@ namespace {
 /// A descriptor that is closed.
 class OpenFile {
  public:
-  OpenFile(const std::string& path, int how) : number_(::open(path.c_str(), how | O_CLOEXEC | O_NOFOLLOW, 0600)) {
-    if (number_ < 0) throw DatabaseError(path, msg("cannot be opened"), msg("make room on the disk, and send it again"), {DiskFault::input_output});
+  OpenFile(const std::string& path, int how)
+      : number_(::open(path.c_str(), how | O_CLOEXEC | O_NOFOLLOW, 0600)) {
+    if (number_ < 0)
+      throw DatabaseError(path, msg("cannot be opened"),
+                          msg("make room on the disk, and send it again"),
+                          {DiskFault::input_output});
   }
   ~OpenFile() { ::close(number_); }
   OpenFile(const OpenFile&) = delete;
@@ -48,8 +52,12 @@ bool write_at(int file, std::uint64_t at, std::string_view bytes) {
 
 }  // namespace
 
-Pieces::Pieces(std::string folder, Whole whole, std::function<std::int64_t()> now_s, const PiecesLimits& limits)
-    : folder_(std::move(folder)), whole_(std::move(whole)), now_s_(std::move(now_s)), limits_(limits) {
+Pieces::Pieces(std::string folder, Whole whole, std::function<std::int64_t()> now_s,
+               const PiecesLimits& limits)
+    : folder_(std::move(folder)),
+      whole_(std::move(whole)),
+      now_s_(std::move(now_s)),
+      limits_(limits) {
   make_private_folder(folder_);
   static const std::regex k_name("([0-9a-f]{64})-([0-9a-f]{64})-([0-9]{1,9})");
   std::vector<std::string> unknown;
@@ -57,10 +65,14 @@ Pieces::Pieces(std::string folder, Whole whole, std::function<std::int64_t()> no
     const std::string name = file.path().filename().string();
     std::smatch found;
     struct stat facts {};
-    const bool ours = std::regex_match(name, found, k_name) && ::lstat(file.path().c_str(), &facts) == 0 && S_ISREG(facts.st_mode);
-    const std::uint64_t of = ours ? std::stoull(found[3]) : 0, have = ours ? static_cast<std::uint64_t>(facts.st_size) : 0;
+    const bool ours = std::regex_match(name, found, k_name) &&
+                      ::lstat(file.path().c_str(), &facts) == 0 && S_ISREG(facts.st_mode);
+    const std::uint64_t of = ours ? std::stoull(found[3]) : 0,
+                        have = ours ? static_cast<std::uint64_t>(facts.st_size) : 0;
     if (!ours || have >= of)
-      unknown.push_back(file.path().string());  // whole, and its server ended before it was checked: it is sent again
+      unknown.push_back(
+          file.path()
+              .string());  // whole, and its server ended before it was checked: it is sent again
     else
       uploads_[{found[1], found[2]}] = {have, of, facts.st_mtime, false};
   }
@@ -68,7 +80,9 @@ Pieces::Pieces(std::string folder, Whole whole, std::function<std::int64_t()> no
   remove_old();
 }
 
-std::string Pieces::path_of(const Key& key, std::uint64_t of) const { return fmt::format("{}/{}-{}-{}", folder_, key.first, key.second, of); }
+std::string Pieces::path_of(const Key& key, std::uint64_t of) const {
+  return fmt::format("{}/{}-{}-{}", folder_, key.first, key.second, of);
+}
 
 void Pieces::remove(const Key& key) {
   const auto found = uploads_.find(key);
@@ -92,15 +106,19 @@ void Pieces::begin(const Key& key, std::uint64_t of) {
     announced += u.of;
     if (other.first != key.first) continue;
     ++own;
-    if (!u.checked && (oldest == nullptr || u.last_s < uploads_.at(*oldest).last_s)) oldest = &other;
+    if (!u.checked && (oldest == nullptr || u.last_s < uploads_.at(*oldest).last_s))
+      oldest = &other;
   }
   if (own >= limits_.of_a_station) {
-    if (oldest == nullptr) throw Error(msg("the session"), msg("is one too many at once"), msg("wait until the others are checked"));
+    if (oldest == nullptr)
+      throw Error(msg("the session"), msg("is one too many at once"),
+                  msg("wait until the others are checked"));
     announced -= uploads_.at(*oldest).of;
     remove(Key(*oldest));
   }
   if (announced > limits_.all_bytes)
-    throw DatabaseError(folder_, msg("holds as many exams that are not whole as it may"), msg("wait until others are handed in"), {DiskFault::full});
+    throw DatabaseError(folder_, msg("holds as many exams that are not whole as it may"),
+                        msg("wait until others are handed in"), {DiskFault::full});
   uploads_[key] = {0, of, now_s_(), false};
 }
 
@@ -108,18 +126,25 @@ Pieces::Have Pieces::have(const std::string& station, const std::string& sha256)
   const std::lock_guard guard(lock_);
   remove_old();
   const auto found = uploads_.find({station, sha256});
-  return found == uploads_.end() ? Have{} : Have{found->second.have, found->second.of, false, false};
+  return found == uploads_.end() ? Have{}
+                                 : Have{found->second.have, found->second.of, false, false};
 }
 
-Pieces::Have Pieces::add(const std::string& station, const std::string& sha256, std::uint64_t at, std::uint64_t of, std::string_view bytes) {
+Pieces::Have Pieces::add(const std::string& station, const std::string& sha256, std::uint64_t at,
+                         std::uint64_t of, std::string_view bytes) {
   const Key key{station, sha256};
   std::unique_lock guard(lock_);
   remove_old();
-  if (of == 0 || of > k_largest_session) throw Error(msg("the session"), msg("is empty, or too large"), msg("hand in an exam of at most 256 MB"));
-  if (bytes.empty() || bytes.size() > k_largest_piece) throw Error(msg("the piece"), msg("is empty, or too large"), msg("send at most 1 MB at once"));
-  if (at > of || bytes.size() > of - at) throw Error(msg("the piece"), msg("goes beyond the end of the session"), msg("send it again"));
+  if (of == 0 || of > k_largest_session)
+    throw Error(msg("the session"), msg("is empty, or too large"),
+                msg("hand in an exam of at most 256 MB"));
+  if (bytes.empty() || bytes.size() > k_largest_piece)
+    throw Error(msg("the piece"), msg("is empty, or too large"), msg("send at most 1 MB at once"));
+  if (at > of || bytes.size() > of - at)
+    throw Error(msg("the piece"), msg("goes beyond the end of the session"), msg("send it again"));
   if (bytes.size() < k_smallest_piece && at + bytes.size() != of)
-    throw Error(msg("the piece"), msg("is too small"), msg("send 64 kB at least, but for the last one"));
+    throw Error(msg("the piece"), msg("is too small"),
+                msg("send 64 kB at least, but for the last one"));
   if (!uploads_.contains(key)) {
     if (at != 0) return {0, 0, false, false};
     begin(key, of);
@@ -131,7 +156,9 @@ Pieces::Have Pieces::add(const std::string& station, const std::string& sha256, 
     const OpenFile file(path, O_WRONLY | O_CREAT);
     if (!write_at(file.number(), at, bytes)) {
       static_cast<void>(::ftruncate(file.number(), static_cast<off_t>(at)));
-      throw DatabaseError(folder_, msg("cannot be written"), msg("make room on the disk, and send it again"), {DiskFault::input_output});
+      throw DatabaseError(folder_, msg("cannot be written"),
+                          msg("make room on the disk, and send it again"),
+                          {DiskFault::input_output});
     }
   }
   u.have += bytes.size();
@@ -150,7 +177,9 @@ Pieces::Have Pieces::add(const std::string& station, const std::string& sha256, 
   }
   guard.lock();
   remove(key);
-  if (!whole) throw Error(msg("the session"), msg("is not the one whose hash was named"), msg("send it again"));
+  if (!whole)
+    throw Error(msg("the session"), msg("is not the one whose hash was named"),
+                msg("send it again"));
   return {of, of, true, true};
 }
 
@@ -161,14 +190,17 @@ bool Pieces::is_whole(const std::string& path, const std::string& sha256) const 
   std::vector<unsigned char> part(k_largest_piece);
   for (ssize_t n = 0; (n = ::read(file.number(), part.data(), part.size())) != 0;) {
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw DatabaseError(path, msg("cannot be read"), msg("look at the disk, and send it again"), {DiskFault::input_output});
+    if (n < 0)
+      throw DatabaseError(path, msg("cannot be read"), msg("look at the disk, and send it again"),
+                          {DiskFault::input_output});
     crypto_hash_sha256_update(&state, part.data(), static_cast<std::size_t>(n));
   }
   Sha256 hash{};
   crypto_hash_sha256_final(&state, hash.data());
   if (to_hex(hash) != sha256) return false;
   if (::fsync(file.number()) != 0)
-    throw DatabaseError(path, msg("cannot be written"), msg("make room on the disk, and send it again"), {DiskFault::input_output});
+    throw DatabaseError(path, msg("cannot be written"),
+                        msg("make room on the disk, and send it again"), {DiskFault::input_output});
   return true;
 }
 

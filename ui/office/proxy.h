@@ -1,5 +1,7 @@
-// Sign-in by the school's own accounts (OpenID Connect), which a reverse proxy in front of the office has checked: it says in a field of the request
-// who asks, beside a secret that it shares with the office. The office believes that field from the proxy's address and with the secret alone.
+// Sign-in by the school's own accounts (OpenID Connect), which a reverse proxy in front of the
+// office has checked: it says in a field of the request who asks, beside a secret that it shares
+// with the office. The office believes that field from the proxy's address and with the secret
+// alone.
 #pragma once
 
 #include <optional>
@@ -17,8 +19,10 @@ struct ProxySignOn {
   std::string secret;   ///< k_shortest_proxy_secret bytes at least
   std::string field;    ///< name of the field that says who asks, in small letters
 };
-/// Checked and in the form that connections have. Throws Error for an address, a field's name or a secret that is none.
-[[nodiscard]] ProxySignOn proxy_sign_on(const std::string& address, const std::string& secret, const std::string& field);
+/// Checked and in the form that connections have. Throws Error for an address, a field's name or a
+/// secret that is none.
+[[nodiscard]] ProxySignOn proxy_sign_on(const std::string& address, const std::string& secret,
+                                        const std::string& field);
 
 /// What a request says of itself by the proxy's fields.
 struct ProxyWord {

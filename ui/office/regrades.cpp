@@ -27,9 +27,13 @@ constexpr char k_note_format[] = "cavum regrade note 1";
 constexpr std::size_t k_id_bytes = 8;
 
 /// Requests go first.
-void work_behind_requests() noexcept { ::setpriority(PRIO_PROCESS, static_cast<id_t>(::syscall(SYS_gettid)), 10); }
+void work_behind_requests() noexcept {
+  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::syscall(SYS_gettid)), 10);
+}
 
-double of_score(const json& result, const char* what) { return number_in(member_of(member_of(result, "score"), what)).value_or(0); }
+double of_score(const json& result, const char* what) {
+  return number_in(member_of(member_of(result, "score"), what)).value_or(0);
+}
 
 }  // namespace
 
@@ -60,11 +64,13 @@ RegradeId Regrades::begin(const BeginRegrade& asked, const Account& by) {
   {
     const std::lock_guard guard(lock_);
     if (state_ == State::marking || (state_ == State::ready && by_ != by.name))
-      throw Error(msg("the new rubric"), msg("is not begun: another one is on its way"), msg("wait until that one counts or is dropped"));
+      throw Error(msg("the new rubric"), msg("is not begun: another one is on its way"),
+                  msg("wait until that one counts or is dropped"));
   }
   records::RegradeBasis basis;
   basis.rubric_toml = asked.rubric;
-  if (basis.rubric_toml.empty()) throw Error(msg("the rubric"), msg("is empty"), msg("choose a file of a rubric (TOML)"));
+  if (basis.rubric_toml.empty())
+    throw Error(msg("the rubric"), msg("is empty"), msg("choose a file of a rubric (TOML)"));
   static_cast<void>(scenarios::parse_rubric(basis.rubric_toml, "rubric.toml"));
   std::uint64_t entries = 0;
   records::ClassRegrade plan = desk_.plan_regrade(asked.exam, std::move(basis), entries);
@@ -103,7 +109,8 @@ void Regrades::mark() {
       return stop_;
     };
     run.told = [&](std::size_t done, std::size_t of) {
-      const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+      const double s =
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
       const std::lock_guard guard(lock_);
       done_ = done;
       left_s_ = s / static_cast<double>(done) * static_cast<double>(of - done);
@@ -129,16 +136,21 @@ void Regrades::mark() {
 void Regrades::require_ready(const std::string& id, const Account& by) const {
   const std::lock_guard guard(lock_);
   if (state_ != State::ready || id != id_)
-    throw Error(msg("the new rubric"), msg("is not the one that waits: it counts already, was dropped, or another was begun"),
-                msg("look at it again"));
-  if (by_ != by.name) throw Error(msg("the new rubric"), msg("was looked at by somebody else"), msg("who looked at it lets it count; or begin anew"));
+    throw Error(
+        msg("the new rubric"),
+        msg("is not the one that waits: it counts already, was dropped, or another was begun"),
+        msg("look at it again"));
+  if (by_ != by.name)
+    throw Error(msg("the new rubric"), msg("was looked at by somebody else"),
+                msg("who looked at it lets it count; or begin anew"));
 }
 
 RegradeCounted Regrades::count(const CountRegrade& asked, const Account& by) {
   const std::lock_guard one(one_at_a_time_);
   require_ready(asked.id, by);
   std::uint64_t first = 0;
-  const std::size_t counted = desk_.count_regrade(plan_, asked.reason, by, first);  // plan_ is changed by begin() alone
+  const std::size_t counted =
+      desk_.count_regrade(plan_, asked.reason, by, first);  // plan_ is changed by begin() alone
   const std::lock_guard guard(lock_);
   first_entry_ = first;
   counted_ = counted;
@@ -150,9 +162,12 @@ void Regrades::drop(const std::string& id, const Account& by) {
   const std::lock_guard one(one_at_a_time_);
   {
     const std::lock_guard guard(lock_);
-    if (state_ == State::none || id != id_) throw Error(msg("the new rubric"), msg("is not the one that was begun"), msg("look at it again"));
+    if (state_ == State::none || id != id_)
+      throw Error(msg("the new rubric"), msg("is not the one that was begun"),
+                  msg("look at it again"));
     if (by_ != by.name && (state_ == State::marking || state_ == State::ready))
-      throw Error(msg("the new rubric"), msg("was begun by somebody else"), msg("who began it drops it"));
+      throw Error(msg("the new rubric"), msg("was begun by somebody else"),
+                  msg("who began it drops it"));
   }
   end_marking();
   const std::lock_guard guard(lock_);
@@ -164,9 +179,12 @@ void Regrades::drop(const std::string& id, const Account& by) {
 
 RegradeShown Regrades::state() const {
   const std::lock_guard guard(lock_);
-  return {
-      state_,   id_,         plan_.exam, by_, begun_, tr(problem_), done_, of_, plan_.left_out, left_s_ < 0 ? std::nullopt : std::optional(left_s_),
-      counted_, first_entry_};
+  return {state_,         id_,
+          plan_.exam,     by_,
+          begun_,         tr(problem_),
+          done_,          of_,
+          plan_.left_out, left_s_ < 0 ? std::nullopt : std::optional(left_s_),
+          counted_,       first_entry_};
 }
 
 std::optional<std::vector<RegradeRow>> Regrades::rows() const {
@@ -174,15 +192,17 @@ std::optional<std::vector<RegradeRow>> Regrades::rows() const {
   if (state_ != State::ready) return std::nullopt;
   std::vector<RegradeRow> out;
   for (const auto& s : plan_.sessions)
-    out.push_back({s.session, s.candidate, text_in(*s.before, "verdict"), text_in(s.after, "verdict"), of_score(*s.before, "points"),
-                   of_score(*s.before, "max"), of_score(s.after, "points"), of_score(s.after, "max"), s.other_verdict(), s.other_points(), s.decided,
-                   s.shown});
+    out.push_back(
+        {s.session, s.candidate, text_in(*s.before, "verdict"), text_in(s.after, "verdict"),
+         of_score(*s.before, "points"), of_score(*s.before, "max"), of_score(s.after, "points"),
+         of_score(s.after, "max"), s.other_verdict(), s.other_points(), s.decided, s.shown});
   return out;
 }
 
 std::uint64_t Regrades::wait(std::uint64_t seen, int patience_ms) const {
   std::unique_lock guard(lock_);
-  changed_.wait_for(guard, std::chrono::milliseconds(patience_ms), [&] { return version_ != seen; });
+  changed_.wait_for(guard, std::chrono::milliseconds(patience_ms),
+                    [&] { return version_ != seen; });
   return version_;
 }
 
@@ -202,7 +222,8 @@ void Regrades::write_note() const {
 void Regrades::read_note() {
   if (!std::filesystem::exists(note_)) return;
   const json note = parse_json_or_null(read_text_file(note_), k_json_part);
-  if (text_in(note, "format") != k_note_format) return;  // cut off as the server ended: nothing had begun
+  if (text_in(note, "format") != k_note_format)
+    return;  // cut off as the server ended: nothing had begun
   id_ = text_in(note, "id");
   by_ = text_in(note, "by");
   begun_ = text_in(note, "begun");

@@ -1,5 +1,6 @@
-// A new rubric over all of an exam at the office: marked in the background, looked at, and then counted by who asked for it, or dropped. One at a
-// time. What is marked lives in memory; a note on disk lets the office say after a restart whether it counts: it does whole, or not at all.
+// A new rubric over all of an exam at the office: marked in the background, looked at, and then
+// counted by who asked for it, or dropped. One at a time. What is marked lives in memory; a note on
+// disk lets the office say after a restart whether it counts: it does whole, or not at all.
 #pragma once
 
 #include <condition_variable>
@@ -37,7 +38,8 @@ class Regrades {
   [[nodiscard]] RegradeShown state() const;
   /// Each session with points and verdict before and after, by pseudonyms; none unless it is ready.
   [[nodiscard]] std::optional<std::vector<RegradeRow>> rows() const;
-  /// Waits until something is another than at `seen`, `patience_ms` at most; returns the new number.
+  /// Waits until something is another than at `seen`, `patience_ms` at most; returns the new
+  /// number.
   [[nodiscard]] std::uint64_t wait(std::uint64_t seen, int patience_ms) const;
 
  private:

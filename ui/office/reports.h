@@ -1,5 +1,5 @@
-// Reports of filed exams, for whoever decides: the tooth in three dimensions and its replay. One is made at a time, for that takes seconds and the
-// memory of a tooth; the last ones are kept.
+// Reports of filed exams, for whoever decides: the tooth in three dimensions and its replay. One is
+// made at a time, for that takes seconds and the memory of a tooth; the last ones are kept.
 #pragma once
 
 #include <atomic>
@@ -18,7 +18,8 @@ class Reports {
   /// The report (HTML) of the recording at a path. Throws Error.
   using Make = std::function<std::string(const std::string& recording)>;
   explicit Reports(Make make) : make_(std::move(make)) {}
-  /// As a page of no site: its script runs, by its hash, and reaches nothing of the office. Throws Error where it cannot be made, or too many wait.
+  /// As a page of no site: its script runs, by its hash, and reaches nothing of the office. Throws
+  /// Error where it cannot be made, or too many wait.
   [[nodiscard]] Reply of(const Recording& recording);
 
  private:

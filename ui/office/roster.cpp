@@ -35,12 +35,14 @@ void add_utf8(std::string& out, char32_t c) {
 std::string from_utf16(const std::string& bytes, bool big_endian) {
   std::string out;
   const auto unit = [&](std::size_t at) {
-    const auto first = static_cast<std::uint8_t>(bytes[at]), second = static_cast<std::uint8_t>(bytes[at + 1]);
+    const auto first = static_cast<std::uint8_t>(bytes[at]),
+               second = static_cast<std::uint8_t>(bytes[at + 1]);
     return static_cast<char32_t>(big_endian ? first << 8 | second : second << 8 | first);
   };
   for (std::size_t at = 2; at + 1 < bytes.size(); at += 2) {
     char32_t c = unit(at);
-    if (c >= 0xd800 && c < 0xdc00 && at + 3 < bytes.size() && unit(at + 2) >= 0xdc00 && unit(at + 2) < 0xe000) {
+    if (c >= 0xd800 && c < 0xdc00 && at + 3 < bytes.size() && unit(at + 2) >= 0xdc00 &&
+        unit(at + 2) < 0xe000) {
       c = 0x10000 + ((c - 0xd800) << 10) + (unit(at + 2) - 0xdc00);
       at += 2;
     }
@@ -49,10 +51,12 @@ std::string from_utf16(const std::string& bytes, bool big_endian) {
   return out;
 }
 
-/// The upper 32 of Windows-1252 that are not Latin-1's; 0: none, refused later as a control character.
-constexpr std::array<char32_t, 32> k_windows{0x20ac, 0,      0x201a, 0x192,  0x201e, 0x2026, 0x2020, 0x2021, 0x2c6,  0x2030, 0x160,
-                                             0x2039, 0x152,  0,      0x17d,  0,      0,      0x2018, 0x2019, 0x201c, 0x201d, 0x2022,
-                                             0x2013, 0x2014, 0x2dc,  0x2122, 0x161,  0x203a, 0x153,  0,      0x17e,  0x178};
+/// The upper 32 of Windows-1252 that are not Latin-1's; 0: none, refused later as a control
+/// character.
+constexpr std::array<char32_t, 32> k_windows{
+    0x20ac, 0,      0x201a, 0x192,  0x201e, 0x2026, 0x2020, 0x2021, 0x2c6,  0x2030, 0x160,
+    0x2039, 0x152,  0,      0x17d,  0,      0,      0x2018, 0x2019, 0x201c, 0x201d, 0x2022,
+    0x2013, 0x2014, 0x2dc,  0x2122, 0x161,  0x203a, 0x153,  0,      0x17e,  0x178};
 
 std::string from_windows(const std::string& bytes) {
   std::string out;
@@ -92,17 +96,20 @@ constexpr char k_name[] = "name";
 /// For a column that is passed over: no name that is known, and no other column's.
 std::string column_name(std::size_t at) { return fmt::format("column {}", at + 1); }
 
-void read_columns(Roster& roster, std::vector<CsvRow>& rows, const std::vector<std::string>& answers, std::vector<std::string>& passed_over) {
+void read_columns(Roster& roster, std::vector<CsvRow>& rows,
+                  const std::vector<std::string>& answers, std::vector<std::string>& passed_over) {
   const auto known = records::people_columns();
   for (std::size_t c = 0; c < rows[0].fields.size(); ++c) {
     std::string& heading = rows[0].fields[c];
     RosterColumn column{heading, "", false, {}};
     for (std::size_t r = 1; r < rows.size() && column.samples.size() < k_samples; ++r)
-      if (c < rows[r].fields.size() && !rows[r].fields[c].empty()) column.samples.push_back(rows[r].fields[c]);
+      if (c < rows[r].fields.size() && !rows[r].fields[c].empty())
+        column.samples.push_back(rows[r].fields[c]);
     column.known = std::find(known.begin(), known.end(), small_letters_of(heading)) != known.end();
     if (column.known) column.use = small_letters_of(heading);
     roster.headed = roster.headed || column.known;
-    if (c < answers.size() && (answers[c] == k_pass_over || std::find(known.begin(), known.end(), answers[c]) != known.end()))
+    if (c < answers.size() && (answers[c] == k_pass_over ||
+                               std::find(known.begin(), known.end(), answers[c]) != known.end()))
       column.use = answers[c];
     if (column.use == k_pass_over) {
       heading = column_name(c);
@@ -114,7 +121,8 @@ void read_columns(Roster& roster, std::vector<CsvRow>& rows, const std::vector<s
   }
 }
 
-/// Surname and first name: what follows the first of several columns goes into it, and is passed over by itself.
+/// Surname and first name: what follows the first of several columns goes into it, and is passed
+/// over by itself.
 void join_names(std::vector<CsvRow>& rows, std::vector<std::string>& passed_over) {
   std::vector<std::size_t> names;
   for (std::size_t c = 0; c < rows[0].fields.size(); ++c)
@@ -147,13 +155,16 @@ Roster read_roster(const std::string& bytes, const std::vector<std::string>& ans
     CsvReader in(text, k_list, {.bars = true, .uneven = true});
     std::vector<CsvRow> rows;
     while (in.next_row()) rows.push_back({in.line(), {in.fields().begin(), in.fields().end()}});
-    if (rows.empty()) throw Error(msg("the list"), msg("is empty"), msg("paste a line of column names, and a line for each candidate below"));
+    if (rows.empty())
+      throw Error(msg("the list"), msg("is empty"),
+                  msg("paste a line of column names, and a line for each candidate below"));
     roster.rows = rows.size() - 1;
     roster.separator = in.separator();
     std::vector<std::string> passed_over;
     read_columns(roster, rows, answers, passed_over);
     join_names(rows, passed_over);
-    if (std::all_of(roster.columns.begin(), roster.columns.end(), [](const RosterColumn& c) { return !c.use.empty(); }))
+    if (std::all_of(roster.columns.begin(), roster.columns.end(),
+                    [](const RosterColumn& c) { return !c.use.empty(); }))
       roster.people = records::parse_people(rows, k_list, passed_over);
     else
       records::require_whole_rows(rows, k_list);

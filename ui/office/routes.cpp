@@ -13,16 +13,20 @@ constexpr Route k_routes[] = {CAVUM_ROUTES(CAVUM_ROW)};
 constexpr std::array k_roles{Role::officer, Role::examiner, Role::invigilator, Role::reader};
 
 bool is_hash(std::string_view text) {
-  return text.size() == k_hash_digits &&
-         std::all_of(text.begin(), text.end(), [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
+  return text.size() == k_hash_digits && std::all_of(text.begin(), text.end(), [](char c) {
+           return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
+         });
 }
 
 }  // namespace
 
-std::string_view name_of(Role role) noexcept { return names_of(role)[static_cast<std::size_t>(role)]; }
+std::string_view name_of(Role role) noexcept {
+  return names_of(role)[static_cast<std::size_t>(role)];
+}
 
 std::optional<Role> role_named(std::string_view name) noexcept {
-  const auto found = std::find_if(k_roles.begin(), k_roles.end(), [name](Role r) { return name_of(r) == name; });
+  const auto found =
+      std::find_if(k_roles.begin(), k_roles.end(), [name](Role r) { return name_of(r) == name; });
   return found == k_roles.end() ? std::nullopt : std::optional(*found);
 }
 
@@ -34,13 +38,17 @@ std::string_view tail_of(const Route& route, std::string_view path) noexcept {
 }
 
 std::string Route::path_of(std::string_view tail) const {
-  return std::string(path.substr(0, path.size() - (path.ends_with('*') ? 1 : 0))) + std::string(tail);
+  return std::string(path.substr(0, path.size() - (path.ends_with('*') ? 1 : 0))) +
+         std::string(tail);
 }
 
 const Route* route_for(std::string_view method, std::string_view path) noexcept {
   for (const Route& r : k_routes) {
     if (r.method != method) continue;
-    const bool here = r.path.ends_with('*') ? path.starts_with(r.path.substr(0, r.path.size() - 1)) && is_hash(tail_of(r, path)) : r.path == path;
+    const bool here =
+        r.path.ends_with('*')
+            ? path.starts_with(r.path.substr(0, r.path.size() - 1)) && is_hash(tail_of(r, path))
+            : r.path == path;
     if (here) return &r;
   }
   return nullptr;

@@ -1,5 +1,6 @@
-// Every route of the office's server, in one table: what is asked for, who may ask, how much may be sent, whether a reason and a code of the second
-// factor go with it, and the types of request and answer. The server puts a handler behind each row (office.cpp: one that is missing does not
+// Every route of the office's server, in one table: what is asked for, who may ask, how much may be
+// sent, whether a reason and a code of the second factor go with it, and the types of request and
+// answer. The server puts a handler behind each row (office.cpp: one that is missing does not
 // compile), and the build makes the pages' paths and types from it (routes_ts.cpp).
 #pragma once
 
@@ -20,15 +21,18 @@ namespace cavum::office {
 [[nodiscard]] std::optional<Role> role_named(std::string_view name) noexcept;
 [[nodiscard]] std::span<const Role> all_roles() noexcept;
 
-/// Who has to be known before a route is gone: nobody, a person who signed in, or an enrolled station that signed the request.
-/// One who came from a learning platform has a cookie of his own; a form that a platform's page sends is let in as it is, and its handler checks it.
+/// Who has to be known before a route is gone: nobody, a person who signed in, or an enrolled
+/// station that signed the request. One who came from a learning platform has a cookie of his own;
+/// a form that a platform's page sends is let in as it is, and its handler checks it.
 enum class Asks { nobody, person, station, came, form };
 struct Who {
   Asks asks;
   unsigned roles = 0;  ///< bits by Role, where a person is asked for
 };
 template <class... Roles>
-requires(sizeof...(Roles) > 0) consteval Who people(Roles... roles) { return {Asks::person, (0U | ... | (1U << static_cast<unsigned>(roles)))}; }
+requires(sizeof...(Roles) > 0) consteval Who people(Roles... roles) {
+  return {Asks::person, (0U | ... | (1U << static_cast<unsigned>(roles)))};
+}
 
 /// What a request bears beside its wish.
 enum class Needs { nothing, reason, reason_and_code, code };
@@ -40,11 +44,17 @@ struct Route {
   unsigned roles;
   std::uint64_t largest_bytes;  ///< of the body
   Needs needs;
-  [[nodiscard]] constexpr bool lets(Role role) const noexcept { return (roles & (1U << static_cast<unsigned>(role))) != 0; }
+  [[nodiscard]] constexpr bool lets(Role role) const noexcept {
+    return (roles & (1U << static_cast<unsigned>(role))) != 0;
+  }
   /// A person's request that changes something: it needs the token of the sign-in.
   [[nodiscard]] constexpr bool changes() const noexcept { return method != "GET"; }
-  [[nodiscard]] constexpr bool needs_code() const noexcept { return needs == Needs::code || needs == Needs::reason_and_code; }
-  [[nodiscard]] constexpr bool needs_reason() const noexcept { return needs == Needs::reason || needs == Needs::reason_and_code; }
+  [[nodiscard]] constexpr bool needs_code() const noexcept {
+    return needs == Needs::code || needs == Needs::reason_and_code;
+  }
+  [[nodiscard]] constexpr bool needs_reason() const noexcept {
+    return needs == Needs::reason || needs == Needs::reason_and_code;
+  }
   /// Its path, with this in the place of `*`.
   [[nodiscard]] std::string path_of(std::string_view tail = {}) const;
 };
@@ -61,11 +71,15 @@ struct InParts {};  ///< taken part by part, for what is too large to be held
 template <class T>
 struct EventsOf {};  ///< server-sent events, each a T
 
-inline constexpr Who k_anybody{Asks::nobody}, k_station{Asks::station}, k_came{Asks::came}, k_form{Asks::form},
-    k_officer = people(Role::officer), k_examiner = people(Role::examiner), k_staff = people(Role::officer, Role::examiner),
-    k_hall = people(Role::officer, Role::invigilator), k_results = people(Role::officer, Role::examiner, Role::reader),
+inline constexpr Who k_anybody{Asks::nobody}, k_station{Asks::station}, k_came{Asks::came},
+    k_form{Asks::form},
+    k_officer = people(Role::officer), k_examiner = people(Role::examiner),
+    k_staff = people(Role::officer, Role::examiner),
+    k_hall = people(Role::officer, Role::invigilator),
+    k_results = people(Role::officer, Role::examiner, Role::reader),
     k_all = people(Role::officer, Role::examiner, Role::invigilator, Role::reader);
-inline constexpr std::uint64_t k_none = 0, k_small = 16U << 10, k_launch = 128U << 10, k_rubric = 512U << 10, k_seats = 1U << 20, k_roster = 4U << 20;
+inline constexpr std::uint64_t k_none = 0, k_small = 16U << 10, k_launch = 128U << 10,
+                               k_rubric = 512U << 10, k_seats = 1U << 20, k_roster = 4U << 20;
 
 // clang-format off
 #define CAVUM_ROUTES(ROUTE) \
@@ -148,13 +162,16 @@ concept BearsCode = requires(Request asked) {
 
 /// A type for each row: its handler is answer(route::NAME, …).
 namespace route {
-#define CAVUM_ROUTE_TYPE(NAME, METHOD, PATH, WHO, LARGEST, NEEDS, REQUEST, ANSWER)                       \
-  struct NAME {                                                                                          \
-    using Request = office::REQUEST;                                                                     \
-    using Answer = office::ANSWER;                                                                       \
-    static constexpr Route row{#NAME, #METHOD, PATH, (WHO).asks, (WHO).roles, LARGEST, Needs::NEEDS};    \
-    static_assert(!JsonStruct<Request> || is_limited<Request>(), "a field of the request has no limit"); \
-    static_assert(row.needs_reason() == BearsReason<Request> && row.needs_code() == BearsCode<Request>); \
+#define CAVUM_ROUTE_TYPE(NAME, METHOD, PATH, WHO, LARGEST, NEEDS, REQUEST, ANSWER) \
+  struct NAME {                                                                    \
+    using Request = office::REQUEST;                                               \
+    using Answer = office::ANSWER;                                                 \
+    static constexpr Route row{#NAME,       #METHOD, PATH,        (WHO).asks,      \
+                               (WHO).roles, LARGEST, Needs::NEEDS};                \
+    static_assert(!JsonStruct<Request> || is_limited<Request>(),                   \
+                  "a field of the request has no limit");                          \
+    static_assert(row.needs_reason() == BearsReason<Request> &&                    \
+                  row.needs_code() == BearsCode<Request>);                         \
   };
 CAVUM_ROUTES(CAVUM_ROUTE_TYPE)
 #undef CAVUM_ROUTE_TYPE

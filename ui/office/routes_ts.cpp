@@ -1,4 +1,5 @@
-// Writes the pages' side of the table of routes, a TypeScript module: for each route its method, its path, and the types of request and answer.
+// Writes the pages' side of the table of routes, a TypeScript module: for each route its method,
+// its path, and the types of request and answer.
 #include <fmt/format.h>
 
 #include <array>
@@ -30,10 +31,13 @@ std::string type_text() {
   if constexpr (JsonStruct<T>) {
     std::string fields;
     T none;
-    each_field(none, [&]<class Member>(const char* name, Member&, JsonField field = JsonField::always) {
-      fields +=
-          fmt::format(" {}{}: {};", name, (asked && field == JsonField::optional) || k_is_optional<Member> ? "?" : "", type_text<Member, asked>());
-    });
+    each_field(none,
+               [&]<class Member>(const char* name, Member&, JsonField field = JsonField::always) {
+                 fields += fmt::format(
+                     " {}{}: {};", name,
+                     (asked && field == JsonField::optional) || k_is_optional<Member> ? "?" : "",
+                     type_text<Member, asked>());
+               });
     const std::string body = "{" + fields + " }", name = struct_name<T>();
     if (name == "Only") return body;
     interfaces[name] = body;
@@ -70,7 +74,8 @@ std::string answer_text(const EventsOf<Event>*) {
 /// "init" | "ticket" | ...
 template <class... E>
 std::string kinds_text(std::type_identity<std::variant<E...>>) {
-  return fmt::format("\"{}\"", fmt::join(std::array<std::string_view, sizeof...(E)>{E::k_kind...}, "\" | \""));
+  return fmt::format(
+      "\"{}\"", fmt::join(std::array<std::string_view, sizeof...(E)>{E::k_kind...}, "\" | \""));
 }
 
 }  // namespace
@@ -78,14 +83,19 @@ std::string kinds_text(std::type_identity<std::variant<E...>>) {
 void write_routes() {
   std::string rows;
   each_route([&]<class Row>(Row) {
-    rows += fmt::format("  {}: {{ method: \"{}\", path: \"{}\" }} as Route<{}, {}>,\n", Row::row.name, Row::row.method, Row::row.path,
-                        type_text<typename Row::Request, true>(), answer_text(static_cast<const typename Row::Answer*>(nullptr)));
+    rows +=
+        fmt::format("  {}: {{ method: \"{}\", path: \"{}\" }} as Route<{}, {}>,\n", Row::row.name,
+                    Row::row.method, Row::row.path, type_text<typename Row::Request, true>(),
+                    answer_text(static_cast<const typename Row::Answer*>(nullptr)));
   });
-  std::cout << "// Made from ui/office/routes.h.\nexport type Nothing = Record<string, never>;\n"
-               "/** `asks` and `answers` are in no object: they carry the types of request and answer, or of each event. */\n"
-               "export interface Route<Request, Answer> { method: string; path: string; asks?: Request; answers?: Answer }\n";
-  std::cout << "export type EntryKind = " << kinds_text(std::type_identity<records::Entry>()) << ";\n";
-  for (const auto& [name, body] : interfaces) std::cout << "export interface " << name << " " << body << "\n";
+  std::cout
+      << "// Made from ui/office/routes.h.\nexport type Nothing = Record<string, never>;\n"
+         "/** `asks` and `answers` are in no object: they carry the types of request and answer, or of each event. */\n"
+         "export interface Route<Request, Answer> { method: string; path: string; asks?: Request; answers?: Answer }\n";
+  std::cout << "export type EntryKind = " << kinds_text(std::type_identity<records::Entry>())
+            << ";\n";
+  for (const auto& [name, body] : interfaces)
+    std::cout << "export interface " << name << " " << body << "\n";
   std::cout << "export const routes = {\n" << rows << "};\n";
 }
 

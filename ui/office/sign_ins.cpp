@@ -10,18 +10,23 @@ namespace {
 
 constexpr std::size_t k_sign_in_bytes = 32, k_max_keys = 10'000;
 
-bool over(const SignedIn& s, std::int64_t now_s) { return now_s - s.seen_s > k_idle_end_s || now_s - s.begun_s > k_absolute_end_s; }
+bool over(const SignedIn& s, std::int64_t now_s) {
+  return now_s - s.seen_s > k_idle_end_s || now_s - s.begun_s > k_absolute_end_s;
+}
 
 }  // namespace
 
-std::string SignIns::begin(const Account& account, std::int64_t now_s, const std::string& proxied_as) {
+std::string SignIns::begin(const Account& account, std::int64_t now_s,
+                           const std::string& proxied_as) {
   std::string cookie = records::random_hex(k_sign_in_bytes);
   const std::lock_guard lock(lock_);
   std::erase_if(by_hash_, [&](const auto& one) { return over(one.second, now_s); });
   if (by_hash_.size() >= k_max_sign_ins)
-    by_hash_.erase(
-        std::min_element(by_hash_.begin(), by_hash_.end(), [](const auto& a, const auto& b) { return a.second.seen_s < b.second.seen_s; }));
-  by_hash_[to_hex(sha256(cookie))] = {account, records::random_hex(k_sign_in_bytes), now_s, now_s, proxied_as};
+    by_hash_.erase(std::min_element(
+        by_hash_.begin(), by_hash_.end(),
+        [](const auto& a, const auto& b) { return a.second.seen_s < b.second.seen_s; }));
+  by_hash_[to_hex(sha256(cookie))] = {account, records::random_hex(k_sign_in_bytes), now_s, now_s,
+                                      proxied_as};
   return cookie;
 }
 

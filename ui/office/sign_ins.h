@@ -1,5 +1,6 @@
-// Who is signed in: a cookie of 256 random bits for each, a token for requests that change something, an end after idleness and one after all.
-// Nothing of it is kept on disk: who is signed in when the server ends signs in again.
+// Who is signed in: a cookie of 256 random bits for each, a token for requests that change
+// something, an end after idleness and one after all. Nothing of it is kept on disk: who is signed
+// in when the server ends signs in again.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +20,15 @@ struct SignedIn {
   Account account;
   std::string token;  ///< of requests that change something, 64 hexadecimal digits
   std::int64_t begun_s = 0, seen_s = 0;
-  std::string proxied_as = {};  ///< where the proxy said who it is: it has to say so in each request
+  std::string proxied_as =
+      {};  ///< where the proxy said who it is: it has to say so in each request
 };
 
 class SignIns {
  public:
-  /// The new cookie's value, 64 hexadecimal digits. `now_s`: any clock that only goes forward, s. The oldest gives way beyond k_max_sign_ins.
-  /// `proxied_as`: what the proxy says; empty for a password.
+  /// The new cookie's value, 64 hexadecimal digits. `now_s`: any clock that only goes forward, s.
+  /// The oldest gives way beyond k_max_sign_ins. `proxied_as`: what the proxy says; empty for a
+  /// password.
   std::string begin(const Account& account, std::int64_t now_s, const std::string& proxied_as = {});
   /// Who holds the cookie, and is seen now; none when it is not known, or its end has come.
   [[nodiscard]] std::optional<SignedIn> of(const std::string& cookie, std::int64_t now_s);
@@ -35,10 +38,12 @@ class SignIns {
 
  private:
   std::mutex lock_;
-  std::map<std::string, SignedIn> by_hash_;  // of the cookie, so that no lookup tells by its time how much of a guess is right
+  std::map<std::string, SignedIn>
+      by_hash_;  // of the cookie, so that no lookup tells by its time how much of a guess is right
 };
 
-/// Tries of a password or code: so many of one key within k_tries_s, then none until they are older.
+/// Tries of a password or code: so many of one key within k_tries_s, then none until they are
+/// older.
 class Tries {
  public:
   static constexpr std::int64_t k_tries_s = 60;

@@ -18,7 +18,9 @@ namespace {
 
 constexpr std::size_t k_cookie_digits = 64;
 
-bool equal(const std::string& a, const std::string& b) { return a.size() == b.size() && sodium_memcmp(a.data(), b.data(), a.size()) == 0; }
+bool equal(const std::string& a, const std::string& b) {
+  return a.size() == b.size() && sodium_memcmp(a.data(), b.data(), a.size()) == 0;
+}
 
 /// Of a sign-in or a visit; empty when it is none.
 std::string cookie_in(const std::string& field, std::string_view name) {
@@ -43,11 +45,16 @@ std::string cookie_named(const std::string& field, std::string_view name) {
   return twice ? "" : found;
 }
 
-nlohmann::json Call::json() const { return parse_json(body, msg("the request"), {8U << 20, 100'000, 16}); }
+nlohmann::json Call::json() const {
+  return parse_json(body, msg("the request"), {8U << 20, 100'000, 16});
+}
 
-Reply error_reply(int status, const Message& message) { return json_reply({{"error", one_line(tr(message))}}, status); }
+Reply error_reply(int status, const Message& message) {
+  return json_reply({{"error", one_line(tr(message))}}, status);
+}
 Reply json_reply(const nlohmann::json& body, int status) {
-  return {status, "application/json", body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
+  return {status, "application/json",
+          body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
 }
 
 /// A request on its way to its handler.
@@ -71,10 +78,14 @@ class Site::Visit : public Exchange {
   }
 
   [[nodiscard]] const Reply* refusal() const override { return refusal_ ? &*refusal_ : nullptr; }
-  [[nodiscard]] bool trusted() const override { return call_.by.has_value() || !call_.station.empty(); }
+  [[nodiscard]] bool trusted() const override {
+    return call_.by.has_value() || !call_.station.empty();
+  }
   [[nodiscard]] std::uint64_t largest_bytes() const override { return largest_; }
   void take(std::string_view part) override {
-    if (!body_sha256_.empty()) crypto_hash_sha256_update(&hash_, reinterpret_cast<const unsigned char*>(part.data()), part.size());
+    if (!body_sha256_.empty())
+      crypto_hash_sha256_update(&hash_, reinterpret_cast<const unsigned char*>(part.data()),
+                                part.size());
     if (taker_)
       taker_->take(part);
     else
@@ -107,7 +118,8 @@ class Site::Visit : public Exchange {
       refusal_ = error_reply(507, e.message());
     } catch (const records::ListMistakes& e) {
       std::string lines;
-      for (const Error& mistake : e.mistakes()) lines += (lines.empty() ? "" : "\n") + one_line(tr(mistake.message()));
+      for (const Error& mistake : e.mistakes())
+        lines += (lines.empty() ? "" : "\n") + one_line(tr(mistake.message()));
       refusal_ = json_reply({{"error", lines}}, 400);
     } catch (const Error& e) {
       refusal_ = error_reply(400, e.message());
@@ -127,21 +139,28 @@ class Site::Visit : public Exchange {
   std::unique_ptr<Taker> taker_;
 };
 
-Site::Site(Knows knows) : knows_(std::move(knows)), heard_(knows_.utc_ns()) {}
+Site::Site(Knows knows) : knows_(std::move(knows)), received_(knows_.utc_ns()) {}
 
-std::unique_ptr<Exchange> Site::welcome(const Head& head) { return std::make_unique<Visit>(*this, head); }
+std::unique_ptr<Exchange> Site::welcome(const Head& head) {
+  return std::make_unique<Visit>(*this, head);
+}
 
 std::optional<Reply> Site::refuse(const Route& route, Call& call, std::string& body_sha256) {
   const ProxyWord proxied = proxy_word(call.head, knows_.proxy);
-  if (proxied.refused) return error_reply(403, msg("a field of this request is the proxy's alone, and the proxy did not send it"));
+  if (proxied.refused)
+    return error_reply(
+        403, msg("a field of this request is the proxy's alone, and the proxy did not send it"));
   call.proxied_as = proxied.known_as;
-  if (route.asks == Asks::form)  // of another place's page by its nature; its handler lets nobody in without a platform's signature
-    return call.head.field("content-type").starts_with("application/x-www-form-urlencoded") ? std::nullopt
-                                                                                            : std::optional(error_reply(415, msg("send a form")));
+  if (route.asks == Asks::form)  // of another place's page by its nature; its handler lets nobody
+                                 // in without a platform's signature
+    return call.head.field("content-type").starts_with("application/x-www-form-urlencoded")
+               ? std::nullopt
+               : std::optional(error_reply(415, msg("send a form")));
   // a page of another place cannot send this type without asking first, and is refused then
   if (route.method == "POST" && call.head.field("content-type") != "application/json")
     return error_reply(415, msg("say Content-Type: application/json"));
-  if (const std::string origin = call.head.field("origin"); !origin.empty() && route.changes() && origin != "https://" + call.head.field("host"))
+  if (const std::string origin = call.head.field("origin");
+      !origin.empty() && route.changes() && origin != "https://" + call.head.field("host"))
     return error_reply(403, msg("another page asks this"));
   switch (route.asks) {
     case Asks::nobody:
@@ -149,7 +168,9 @@ std::optional<Reply> Site::refuse(const Route& route, Call& call, std::string& b
       return std::nullopt;
     case Asks::came:
       call.cookie = cookie_in(call.head.field("cookie"), k_visit_cookie);
-      return knows_.came && knows_.came(call.cookie) ? std::nullopt : std::optional(error_reply(401, msg("open the link on the platform again")));
+      return knows_.came && knows_.came(call.cookie)
+                 ? std::nullopt
+                 : std::optional(error_reply(401, msg("open the link on the platform again")));
     case Asks::person:
       return refuse_person(route, call);
     case Asks::station:
@@ -161,20 +182,24 @@ std::optional<Reply> Site::refuse(const Route& route, Call& call, std::string& b
 std::optional<Reply> Site::refuse_person(const Route& route, Call& call) {
   call.cookie = cookie_in(call.head.field("cookie"), k_cookie);
   call.by = sign_ins_.of(call.cookie, knows_.now_s());
-  if (call.by && knows_.account(call.by->account.name) != call.by->account) {  // removed, or given another password or role
+  if (call.by && knows_.account(call.by->account.name) !=
+                     call.by->account) {  // removed, or given another password or role
     sign_ins_.end(call.cookie);
     call.by.reset();
   }
-  if (call.by && call.by->proxied_as != call.proxied_as && !call.by->proxied_as.empty()) call.by.reset();  // not by the proxy, or by another person
+  if (call.by && call.by->proxied_as != call.proxied_as && !call.by->proxied_as.empty())
+    call.by.reset();  // not by the proxy, or by another person
   if (!call.by) return error_reply(401, msg("nobody is signed in"));
-  if (!route.lets(call.by->account.role)) return error_reply(403, msg("this account may not do that"));
+  if (!route.lets(call.by->account.role))
+    return error_reply(403, msg("this account may not do that"));
   if (route.changes() && !equal(call.head.field(k_token_field), call.by->token))
     return error_reply(403, msg("the page's token is missing; load it again"));
   return std::nullopt;
 }
 
 bool Site::still(const Call& call) {
-  return call.by && sign_ins_.lasts(call.cookie, knows_.now_s()) && knows_.account(call.by->account.name) == call.by->account;
+  return call.by && sign_ins_.lasts(call.cookie, knows_.now_s()) &&
+         knows_.account(call.by->account.name) == call.by->account;
 }
 
 std::optional<Reply> Site::refuse_station(Call& call, std::string& body_sha256) {
@@ -191,11 +216,15 @@ std::optional<Reply> Site::refuse_station(Call& call, std::string& body_sha256) 
   } catch (const Error& wrong) {
     return refused(wrong.message());
   }
-  const std::string target = call.head.path + (call.head.query.empty() ? "" : "?" + call.head.query);
-  if (request.ledger != knows_.ledger || request.method != call.head.method || request.path != target)
+  const std::string target =
+      call.head.path + (call.head.query.empty() ? "" : "?" + call.head.query);
+  if (request.ledger != knows_.ledger || request.method != call.head.method ||
+      request.path != target)
     return refused(msg("another request was signed"));
-  if (const Message problem = knows_.station_problem(request.public_key); !problem.empty()) return refused(problem);
-  if (const Message problem = heard_.hear(request, knows_.utc_ns()); !problem.empty()) return refused(problem);
+  if (const Message problem = knows_.station_problem(request.public_key); !problem.empty())
+    return refused(problem);
+  if (const Message problem = received_.hear(request, knows_.utc_ns()); !problem.empty())
+    return refused(problem);
   body_sha256 = request.body_sha256.empty() ? "none" : request.body_sha256;
   call.station = request.public_key;
   return std::nullopt;

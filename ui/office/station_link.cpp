@@ -14,7 +14,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
-#include "engine/base/said_by.h"
+#include "engine/base/message_from.h"
 #include "engine/base/write_file.h"
 #include "engine/session/session_image.h"
 #include "engine/session/session_reader.h"
@@ -28,14 +28,23 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr int k_report_ms = 1000, k_look_ms = 5000, k_ask_ms = 500, k_longest_wait_ms = 10'000;
-constexpr auto k_patience_of_reports = std::chrono::seconds(10), k_patience_to_begin = std::chrono::seconds(5);
+constexpr auto k_patience_of_reports = std::chrono::seconds(10),
+               k_patience_to_begin = std::chrono::seconds(5);
 
-std::int64_t steady_ns() { return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+std::int64_t steady_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
 
 /// The exam's threads go first.
-void stand_back() noexcept { ::setpriority(PRIO_PROCESS, static_cast<id_t>(::syscall(SYS_gettid)), 15); }
+void stand_back() noexcept {
+  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::syscall(SYS_gettid)), 15);
+}
 
-std::string beside(const std::string& recording, const char* what) { return fs::path(recording).replace_extension(what).string(); }
+std::string beside(const std::string& recording, const char* what) {
+  return fs::path(recording).replace_extension(what).string();
+}
 std::string receipt_of(const std::string& recording) { return beside(recording, ".receipt.json"); }
 std::string refusal_of(const std::string& recording) { return beside(recording, ".refused.json"); }
 
@@ -54,8 +63,12 @@ std::optional<HandedIn> StationLink::outcome(const std::string& recording) {
   return refused;
 }
 
-StationLink::StationLink(const LinkOptions& options, const SigningKey& key) : options_(options), key_(key), answered_ns_(steady_ns()) {
-  const auto client = [&] { return std::make_unique<StationClient>(options_.server, options_.certificate, options_.school, key_); };
+StationLink::StationLink(const LinkOptions& options, const SigningKey& key)
+    : options_(options), key_(key), answered_ns_(steady_ns()) {
+  const auto client = [&] {
+    return std::make_unique<StationClient>(options_.server, options_.certificate, options_.school,
+                                           key_);
+  };
   speaking_ = client();
   speaking_->set_patience(k_patience_of_reports);
   filing_ = client();
@@ -92,7 +105,7 @@ LinkView StationLink::view() const {
 
 void StationLink::read(std::uint64_t entry) {
   const std::lock_guard guard(lock_);
-  heard_ = std::max(heard_, entry);
+  received_ = std::max(received_, entry);
   std::erase_if(view_.told, [&](const ReceivedAnnouncement& t) { return t.entry <= entry; });
 }
 
@@ -123,7 +136,8 @@ std::string StationLink::begin(const std::string& nonce) {
 }
 
 bool StationLink::wait(std::unique_lock<std::mutex>& guard, std::condition_variable& come, int ms) {
-  come.wait_for(guard, std::chrono::milliseconds(ms), [&] { return ending_ || (&come == &file_ && look_); });
+  come.wait_for(guard, std::chrono::milliseconds(ms),
+                [&] { return ending_ || (&come == &file_ && look_); });
   return !ending_;
 }
 
@@ -132,7 +146,7 @@ void StationLink::speak() {
   int pause_ms = k_report_ms;
   std::unique_lock guard(lock_);
   while (!ending_) {
-    said_.heard = heard_;
+    said_.heard = received_;
     const json report = to_json_value(said_);
     guard.unlock();
     Message trouble;
@@ -144,8 +158,9 @@ void StationLink::speak() {
       }
       take(word);
       pause_ms = k_report_ms;
-    } catch (const std::exception& wrong) {  // the network, a refusal, an answer that is none: it goes on without
-      trouble = said_by(wrong);
+    } catch (const std::exception&
+                 wrong) {  // the network, a refusal, an answer that is none: it goes on without
+      trouble = message_from(wrong);
       pause_ms = std::min(2 * pause_ms, k_longest_wait_ms);
     }
     guard.lock();
@@ -163,7 +178,7 @@ void StationLink::take(const json& word) {
   view_.hold_reason = text_in(hold, "reason");
   view_.told.clear();
   for (const json& a : member_of(word, "announcements"))
-    if (const auto entry = static_cast<std::uint64_t>(whole_in(a, "entry")); entry > heard_)
+    if (const auto entry = static_cast<std::uint64_t>(whole_in(a, "entry")); entry > received_)
       view_.told.push_back({entry, text_in(a, "text"), whole_in(a, "utc_ns")});
 }
 
@@ -171,8 +186,10 @@ void StationLink::fetch_tickets(StationClient& client) {
   std::set<std::string> live;
   for (const json& t : client.tickets()) {
     const std::string text = text_in(t, "text");
-    const records::Ticket ticket = records::parse_ticket(text, options_.school, msg("the office's ticket"));
-    const std::string path = fmt::format("{}/{}.ticket", options_.tickets, file_name_of(ticket.candidate));
+    const records::Ticket ticket =
+        records::parse_ticket(text, options_.school, msg("the office's ticket"));
+    const std::string path =
+        fmt::format("{}/{}.ticket", options_.tickets, file_name_of(ticket.candidate));
     live.insert(path);
     std::error_code none;
     if (!fs::exists(path, none) || read_text_file(path) != text) {
@@ -182,7 +199,9 @@ void StationLink::fetch_tickets(StationClient& client) {
   }
   for (const auto& file : fs::directory_iterator(options_.tickets)) {
     const std::string path = file.path().string();
-    if (!path.ends_with(".ticket") || live.contains(options_.tickets + "/" + file.path().filename().string())) continue;
+    if (!path.ends_with(".ticket") ||
+        live.contains(options_.tickets + "/" + file.path().filename().string()))
+      continue;
     fs::remove(beside(path, ".begin"));
     fs::remove(path);
   }
@@ -196,12 +215,14 @@ bool StationLink::is_ours(const std::string& path) {
     const SessionReader session(path);
     if (!session.closed()) return false;  // it may be gone on with
     const SessionSetup setup = session.setup();
-    const auto note = std::find_if(setup.notes.begin(), setup.notes.end(), [](const auto& n) { return n.first == records::k_ticket_note; });
+    const auto note = std::find_if(setup.notes.begin(), setup.notes.end(),
+                                   [](const auto& n) { return n.first == records::k_ticket_note; });
     if (note != setup.notes.end()) {
       static_cast<void>(records::parse_ticket(note->second, options_.school, path));
       return true;
     }
-  } catch (const std::exception&) {  // damaged, or of another school: a person hands it in, or nobody
+  } catch (
+      const std::exception&) {  // damaged, or of another school: a person hands it in, or nobody
   }
   not_ours_.insert(path);
   return false;
@@ -216,7 +237,8 @@ std::vector<std::string> StationLink::recordings_left() {
   std::vector<std::string> out;
   std::error_code none;
   const auto add = [&](const fs::path& path) {
-    if (path.extension() == ".cavum" && (under_way.empty() || !fs::equivalent(path, under_way, none)) && is_ours(path.string()))
+    if (path.extension() == ".cavum" &&
+        (under_way.empty() || !fs::equivalent(path, under_way, none)) && is_ours(path.string()))
       out.push_back(path.string());
   };
   for (const auto& place : options_.recordings) {
@@ -237,11 +259,17 @@ bool StationLink::file(StationClient& client, const std::string& path) {
   json state = client.handed(hash);
   while (true) {
     const std::string word = text_in(state, "state");
-    if (word == "filed") return write_private_text_file(receipt_of(path), state.at("receipt").dump(2) + "\n"), true;
-    if (word == "refused") return write_private_text_file(refusal_of(path), json{{"findings", state.at("findings")}}.dump(2) + "\n"), false;
+    if (word == "filed")
+      return write_private_text_file(receipt_of(path), state.at("receipt").dump(2) + "\n"), true;
+    if (word == "refused")
+      return write_private_text_file(refusal_of(path),
+                                     json{{"findings", state.at("findings")}}.dump(2) + "\n"),
+             false;
     if (word == "unknown") client.hand_in(image);  // never sent, or lost on the way
     std::unique_lock guard(lock_);
-    if (!wait(guard, speak_, k_ask_ms)) throw OfficeUnreachable(Name{path}, msg("is not handed in yet: this station ends"), msg("begin again"));
+    if (!wait(guard, speak_, k_ask_ms))
+      throw OfficeUnreachable(Name{path}, msg("is not handed in yet: this station ends"),
+                              msg("begin again"));
     guard.unlock();
     state = client.handed(hash);
   }
@@ -261,12 +289,14 @@ void StationLink::hand_in_all() {
           const std::lock_guard inner(lock_);
           view_.waiting = left.size();
         }
-        if (!file(*filing_, left.back())) refused.push_back(fs::path(left.back()).filename().string());
+        if (!file(*filing_, left.back()))
+          refused.push_back(fs::path(left.back()).filename().string());
         left.pop_back();
       }
       const std::lock_guard inner(lock_);
       view_.waiting = 0;
-    } catch (const std::exception&) {  // the network, or a disk that refuses: again later; the thread that speaks says what is wrong
+    } catch (const std::exception&) {  // the network, or a disk that refuses: again later; the
+                                       // thread that speaks says what is wrong
     }
     guard.lock();
     view_.failed.insert(view_.failed.end(), refused.begin(), refused.end());

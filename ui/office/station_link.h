@@ -1,6 +1,7 @@
-// A station that speaks with the office by itself: tickets, the word to begin, a report a second, what the office has to say, and recordings that are
-// handed in once they are closed. All of it in threads of its own that wait for nobody's picture or tick: the window sets what it does and reads what
-// was said. Without a network it goes on with the tickets that it has, and hands in later.
+// A station that speaks with the office by itself: tickets, the word to begin, a report a second,
+// what the office has to say, and recordings that are handed in once they are closed. All of it in
+// threads of its own that wait for nobody's picture or tick: the window sets what it does and reads
+// what was said. Without a network it goes on with the tickets that it has, and hands in later.
 #pragma once
 
 #include <condition_variable>
@@ -22,9 +23,10 @@ namespace cavum::office {
 class StationClient;
 
 struct LinkOptions {
-  std::string server, certificate;      ///< as StationClient takes them
-  std::string school;                   ///< public key, hexadecimal
-  std::string tickets;                  ///< folder where the office's tickets lie; what the office takes back is removed
+  std::string server, certificate;  ///< as StationClient takes them
+  std::string school;               ///< public key, hexadecimal
+  std::string
+      tickets;  ///< folder where the office's tickets lie; what the office takes back is removed
   std::vector<std::string> recordings;  ///< session files, or folders of them, that are handed in
 };
 
@@ -43,11 +45,11 @@ struct HandedIn {
 
 /// What a window shows of the office: a copy.
 struct LinkView {
-  bool reached = false;                    ///< it answered last time
-  double silent_s = 0.0;                   ///< since it last answered, or since the beginning
-  Message trouble;                         ///< why it does not
-  std::uint64_t hold = 0;                  ///< entry by which the exam here is paused; 0: it may run
-  std::string hold_reason;                 ///< why
+  bool reached = false;     ///< it answered last time
+  double silent_s = 0.0;    ///< since it last answered, or since the beginning
+  Message trouble;          ///< why it does not
+  std::uint64_t hold = 0;   ///< entry by which the exam here is paused; 0: it may run
+  std::string hold_reason;  ///< why
   std::vector<ReceivedAnnouncement> told;  ///< not read yet, the oldest first
   std::size_t waiting = 0;                 ///< recordings that are not handed in yet
   std::vector<std::string> failed;         ///< that the office refused, by name
@@ -75,11 +77,13 @@ class StationLink {
   /// Looks for recordings at once.
   void hand_in();
 
-  /// The office's word to begin the exam of this ticket's number. Waits for it, a few seconds at most: not of a window's thread. Empty when the
-  /// office cannot be reached. Throws Error when it refuses.
+  /// The office's word to begin the exam of this ticket's number. Waits for it, a few seconds at
+  /// most: not of a window's thread. Empty when the office cannot be reached. Throws Error when it
+  /// refuses.
   [[nodiscard]] std::string begin(const std::string& nonce);
 
-  /// What became of a recording: beside it lie NAME.receipt.json or NAME.refused.json. Neither: it waits.
+  /// What became of a recording: beside it lie NAME.receipt.json or NAME.refused.json. Neither: it
+  /// waits.
   [[nodiscard]] static std::optional<HandedIn> outcome(const std::string& recording);
 
  private:
@@ -91,7 +95,8 @@ class StationLink {
   [[nodiscard]] std::vector<std::string> recordings_left();
   [[nodiscard]] bool is_ours(const std::string& path);
   /// Until it is time, or this ends: false.
-  [[nodiscard]] bool wait(std::unique_lock<std::mutex>& guard, std::condition_variable& come, int ms);
+  [[nodiscard]] bool wait(std::unique_lock<std::mutex>& guard, std::condition_variable& come,
+                          int ms);
 
   LinkOptions options_;
   SigningKey key_;
@@ -102,7 +107,7 @@ class StationLink {
   LinkView view_;
   std::int64_t answered_ns_ = 0;  // steady clock
   std::int64_t tickets_ = -1;     // as the office counts them, of the last time they were fetched
-  std::uint64_t heard_ = 0;       // last announcement
+  std::uint64_t received_ = 0;    // last announcement
   std::uint64_t released_ = 0;    // hold that is undone here
   std::string under_way_;
   std::set<std::string> not_ours_;  // of the thread that hands in

@@ -1,5 +1,6 @@
-// How a station proves who it is over the network: each request bears a line of JSON signed by the enrolled station's own key, over method, path,
-// body, the office's ledger, a time and a number drawn for it. What was heard once is refused the second time.
+// How a station proves who it is over the network: each request bears a line of JSON signed by the
+// enrolled station's own key, over method, path, body, the office's ledger, a time and a number
+// drawn for it. What was heard once is refused the second time.
 #pragma once
 
 #include <cstdint>
@@ -30,18 +31,19 @@ struct StationRequest {
 /// Throws Error when the text is no such line or the signature does not hold.
 [[nodiscard]] StationRequest parse_request(const std::string& text);
 
-/// Remembers the numbers of requests for as long as their time would be taken. Times before its own beginning are refused, so that a restart forgets
-/// nothing that counts.
-class HeardRequests {
+/// Remembers the numbers of requests for as long as their time would be taken. Times before its own
+/// beginning are refused, so that a restart forgets nothing that counts.
+class ReceivedRequests {
  public:
-  explicit HeardRequests(std::int64_t begun_utc_ns) : begun_utc_ns_(begun_utc_ns) {}
+  explicit ReceivedRequests(std::int64_t begun_utc_ns) : begun_utc_ns_(begun_utc_ns) {}
   /// Why it is refused, in words; empty: it is new, and remembered.
   [[nodiscard]] Message hear(const StationRequest& request, std::int64_t now_utc_ns);
 
  private:
   std::mutex lock_;
   std::int64_t begun_utc_ns_;
-  std::map<std::string, std::int64_t> heard_;  // time until which it is remembered, by key and number
+  std::map<std::string, std::int64_t>
+      received_;  // time until which it is remembered, by key and number
 };
 
 }  // namespace cavum::office

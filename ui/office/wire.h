@@ -1,5 +1,6 @@
-// What is asked of the office and what it answers: each body as a struct, from which the pages' types are made, too (routes.h). Times are UTC, as
-// "2026-11-21T09:00:00Z" or in nanoseconds since 1970; `candidate` is a pseudonym, `id` and `name` are the school's own and are told to officers
+// What is asked of the office and what it answers: each body as a struct, from which the pages'
+// types are made, too (routes.h). Times are UTC, as "2026-11-21T09:00:00Z" or in nanoseconds since
+// 1970; `candidate` is a pseudonym, `id` and `name` are the school's own and are told to officers
 // alone.
 #pragma once
 
@@ -29,7 +30,8 @@ using Texts = std::vector<std::string>;
 /// What a person's account may be.
 enum class Role : unsigned { officer, examiner, invigilator, reader };
 [[nodiscard]] constexpr auto names_of(Role) {
-  return std::array<std::string_view, 4>{said("officer"), said("examiner"), said("invigilator"), said("reader")};
+  return std::array<std::string_view, 4>{noop("officer"), noop("examiner"), noop("invigilator"),
+                                         noop("reader")};
 }
 enum class RegradeState { none, marking, ready, failed, counted, lost };
 [[nodiscard]] constexpr auto names_of(RegradeState) {
@@ -37,9 +39,13 @@ enum class RegradeState { none, marking, ready, failed, counted, lost };
 }
 /// Of a makeup sitting: nothing, what the request says, or what the first ticket granted.
 enum class Granting { none, these, as_before };
-[[nodiscard]] constexpr auto names_of(Granting) { return std::array<std::string_view, 3>{"none", "these", "as before"}; }
+[[nodiscard]] constexpr auto names_of(Granting) {
+  return std::array<std::string_view, 3>{"none", "these", "as before"};
+}
 enum class HandedState { unknown, waiting, filed, refused };
-[[nodiscard]] constexpr auto names_of(HandedState) { return std::array<std::string_view, 4>{"unknown", "waiting", "filed", "refused"}; }
+[[nodiscard]] constexpr auto names_of(HandedState) {
+  return std::array<std::string_view, 4>{"unknown", "waiting", "filed", "refused"};
+}
 
 inline constexpr std::size_t k_longest_line = 2000, k_max_rows = 10'000;
 using Line = Text<k_longest_line>;
@@ -49,7 +55,9 @@ using Minutes = Between<1, 10'080>;
 /// Why: one line, kept for ever.
 struct Reason : Line {
   using Line::Line;
-  [[nodiscard]] Message problem() const { return is_seen_text(*this) ? Message() : msg("is no line of text"); }
+  [[nodiscard]] Message problem() const {
+    return is_seen_text(*this) ? Message() : msg("is no line of text");
+  }
 };
 // clang-format off
 /// Of the second factor.
@@ -91,7 +99,7 @@ CAVUM_JSON(Issued, (List<IssuedTicket>, issued), (List<NotIssued>, refused), (st
 /// `makeup`: what may have become of it that a makeup is given for; `accommodations`: as long as the ticket's file is kept.
 CAVUM_JSON(TicketRow, (std::uint64_t, entry), (std::string, candidate), (std::string, id), (std::string, name), (std::string, exam),
            (std::string, not_before), (std::string, not_after), (std::string, state), (std::string, seat), (std::string, became), (std::string, why),
-           (bool, live), (bool, at_station), (bool, grant_kept), (bool, begun), (Texts, makeup), (Maybe<std::string>, accommodations))
+           (bool, live), (bool, at_station), (bool, grant_stored), (bool, begun), (Texts, makeup), (Maybe<std::string>, accommodations))
 /// `exams`: of which tickets are good.
 CAVUM_JSON(Tickets, (List<TicketRow>, tickets), (List<ExamFacts>, exams))
 /// `begun`: it is known that the candidate has begun.
@@ -116,10 +124,10 @@ using UpToADay = Between<-1, 86'400>;  ///< s
 CAVUM_JSON(StationReport, (AtStation, state), (ShortLine, candidate, optional), (ShortLine, step, optional), (ShortLine, alarm, optional),
            (UpToADay, left_s, optional), (bool, held, optional), (std::uint64_t, heard, optional), (UpToADay, here_s, optional))
 /// `refused`: the candidate whom it may not begin; `since_utc_ns`: when the candidate signed in; 0: nobody did.
-CAVUM_JSON_MORE(StationSaid, StationReport, (std::string, refused), (std::int64_t, seen_utc_ns), (std::int64_t, since_utc_ns))
+CAVUM_JSON_MORE(StationStatus, StationReport, (std::string, refused), (std::int64_t, seen_utc_ns), (std::int64_t, since_utc_ns))
 /// `hold`: entry of the pause; 0: it may run.
 CAVUM_JSON(StationShown, (std::string, name), (std::string, public_key), (std::string, room), (std::uint64_t, entry), (std::uint64_t, hold),
-           (bool, revoked), (std::size_t, unread), (Texts, twins), (Maybe<StationSaid>, said))
+           (bool, revoked), (std::size_t, unread), (Texts, twins), (Maybe<StationStatus>, report))
 CAVUM_JSON(ToRead, (std::uint64_t, entry), (std::int64_t, utc_ns), (std::string, text))
 /// A pause with its reason, or an announcement; `stations`: keys, none for all.
 CAVUM_JSON_MORE(Notice, ToRead, (std::string, room), (Texts, stations))
@@ -127,7 +135,7 @@ CAVUM_JSON_MORE(Notice, ToRead, (std::string, room), (Texts, stations))
 CAVUM_JSON(ShownFinding, (records::FindingKind, kind), (std::string, text))
 CAVUM_JSON(RefusedExam, (std::string, sha256), (std::string, candidate), (std::string, station), (List<ShownFinding>, findings))
 CAVUM_JSON(InboxShown, (std::size_t, waiting), (std::string, trouble), (List<RefusedExam>, refused))
-/// `tickets`: how many, by name of their records::TicketGroup.
+/// `tickets`: how many, by name of their records::TicketStatus.
 CAVUM_JSON(BoardShown, (std::int64_t, utc_ns), (List<StationShown>, stations), (ByName<std::size_t>, tickets), (List<Notice>, holds),
            (List<Notice>, announcements), (InboxShown, inbox))
 using Invite = Only<"name", Line>;
@@ -171,7 +179,7 @@ using Results = Only<"results", std::vector<ResultRow>>;
 /// All that is ready, sessions, or results as a page showed them, each by its entry.
 CAVUM_JSON(ReleaseResults, (bool, all, optional), (bool, with_findings, optional), (Entries, sessions, optional), (Maybe<Entries>, results, optional),
            (Reason, reason), (Code, code))
-CAVUM_JSON(Released, (std::size_t, released), (std::size_t, kept_back), (std::size_t, to_decide))
+CAVUM_JSON(Released, (std::size_t, released), (std::size_t, withheld), (std::size_t, to_decide))
 CAVUM_JSON(Retract, (Entries, sessions), (Reason, reason), (Code, code))
 CAVUM_JSON(AppealRow, (std::uint64_t, entry), (std::uint64_t, session), (std::string, utc), (std::string, candidate), (std::string, exam),
            (std::string, verdict), (std::string, sha256), (std::string, reason), (std::string, outcome), (std::string, answer),

@@ -1,5 +1,5 @@
-// Plain charts as SVG: axes with units and round ticks, lines, dots with error bars, bands, shaded spans, marks and a
-// legend. Several charts make a page.
+// Plain charts as SVG: axes with units and round ticks, lines, dots with error bars, bands, shaded
+// spans, marks and a legend. Several charts make a page.
 #pragma once
 
 #include <optional>
@@ -41,9 +41,10 @@ struct Chart {
   std::vector<ChartSpan> spans;
   std::vector<ChartMark> marks;
   std::optional<std::pair<double, double>> x_range, y_range;  ///< else what the series need
-  bool legend_at_right = false;                               ///< inside, upper right; else upper left
+  bool legend_at_right = false;  ///< inside, upper right; else upper left
   double width_px = 520, height_px = 400;
-  double text_px = 11;  ///< of the numbers; larger ones have margins of their own, fewer ticks, and the legend beside the chart
+  double text_px = 11;  ///< of the numbers; larger ones have margins of their own, fewer ticks, and
+                        ///< the legend beside the chart
 };
 
 /// A group of `chart.width_px` × `chart.height_px` with its corner at x, y.
@@ -51,8 +52,10 @@ struct Chart {
 /// A drawing of 26 × 14 with the sign of a series alone, for a legend beside a chart.
 [[nodiscard]] std::string legend_sign_svg(const ChartSeries& series);
 /// A whole file around groups. `name`: what is read aloud in its place, in a page.
-[[nodiscard]] std::string svg_page(double width_px, double height_px, const std::string& content, const std::string& name = "");
+[[nodiscard]] std::string svg_page(double width_px, double height_px, const std::string& content,
+                                   const std::string& name = "");
 /// Charts in a row under a title, with lines of small print below.
-[[nodiscard]] std::string charts_page(const std::string& title, const std::vector<Chart>& charts, const std::vector<std::string>& small_print);
+[[nodiscard]] std::string charts_page(const std::string& title, const std::vector<Chart>& charts,
+                                      const std::vector<std::string>& small_print);
 
 }  // namespace cavum::ui

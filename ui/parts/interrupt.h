@@ -1,5 +1,5 @@
-// Ctrl-C, SIGTERM and a terminal that closes as a question that a loop may ask, so that an exam ends in order: force off, everything recorded,
-// nothing half written.
+// Ctrl-C, SIGTERM and a terminal that closes as a question that a loop may ask, so that an exam
+// ends in order: force off, everything recorded, nothing half written.
 #pragma once
 
 #include <csignal>

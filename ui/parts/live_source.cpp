@@ -22,10 +22,14 @@ namespace {
 class SimulatedSource final : public LiveSource {
  public:
   explicit SimulatedSource(LiveSourceOptions options) : options_(std::move(options)) {}
-  [[nodiscard]] MotionSource source() const override { return {SourceKind::simulated_operator, options_.operator_name}; }
+  [[nodiscard]] MotionSource source() const override {
+    return {SourceKind::simulated_operator, options_.operator_name};
+  }
   [[nodiscard]] double position_quantum_mm() const override { return OmniModel{}.quantum_mm; }
   [[nodiscard]] Notes notes() const override {
-    return {{"operator", options_.operator_name}, {"operator_seed", std::to_string(options_.seed)}, {"in_real_time", "yes"}};
+    return {{"operator", options_.operator_name},
+            {"operator_seed", std::to_string(options_.seed)},
+            {"in_real_time", "yes"}};
   }
   void begin(const scenarios::ExamSetup& setup) override {
     candidate_ = scenarios::make_candidate_device(setup, options_.operator_name, options_.seed);
@@ -50,30 +54,40 @@ class StylusSource final : public LiveSource {
     with_pedal_ = std::make_unique<WithPedal>(*stylus_, *pedal_);
     with_desk_ = std::make_unique<WithDesk>(*with_pedal_, desk_);
   }
-  [[nodiscard]] MotionSource source() const override { return {SourceKind::device, stylus_->facts().id, stylus_->facts().serial}; }
-  [[nodiscard]] double position_quantum_mm() const override { return stylus_->facts().position_quantum_mm; }
+  [[nodiscard]] MotionSource source() const override {
+    return {SourceKind::device, stylus_->facts().id, stylus_->facts().serial};
+  }
+  [[nodiscard]] double position_quantum_mm() const override {
+    return stylus_->facts().position_quantum_mm;
+  }
   [[nodiscard]] double peak_n() const override { return stylus_->facts().peak_n; }
   [[nodiscard]] double continuous_n() const override { return stylus_->facts().continuous_n; }
   [[nodiscard]] Notes notes() const override {
-    Notes notes{
-        {"stylus", stylus_->facts().id}, {"stylus_calibration", to_toml(stylus_options_.station)}, {"pedal_calibration", to_toml(station_pedal_)}};
-    const std::string checked = CheckHistory(check_history_path()).session_note({stylus_->facts().id, stylus_->facts().serial});
+    Notes notes{{"stylus", stylus_->facts().id},
+                {"stylus_calibration", to_toml(stylus_options_.station)},
+                {"pedal_calibration", to_toml(station_pedal_)}};
+    const std::string checked = CheckHistory(check_history_path())
+                                    .session_note({stylus_->facts().id, stylus_->facts().serial});
     if (!checked.empty()) notes.emplace_back(k_self_check_note, checked);
     return notes;
   }
   void begin(const scenarios::ExamSetup& setup) override {
     if (!options_.bur.empty()) {
       const auto at = std::find(setup.bur_names.begin(), setup.bur_names.end(), options_.bur);
-      if (at == setup.bur_names.end()) throw Error(Name{"--bur " + options_.bur}, msg("is not on this scenario's tray"), msg("name one of its burs"));
+      if (at == setup.bur_names.end())
+        throw Error(Name{"--bur " + options_.bur}, msg("is not on this scenario's tray"),
+                    msg("name one of its burs"));
       desk_.bur = static_cast<int>(at - setup.bur_names.begin());
     }
     using Clock = std::chrono::steady_clock;
     constexpr auto k_patience = std::chrono::seconds(60);
     Message told;
-    for (const auto until = Clock::now() + k_patience; Clock::now() < until; std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
+    for (const auto until = Clock::now() + k_patience; Clock::now() < until;
+         std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
       const std::optional<Error> now = stylus_->health().problem;
       if (!now) break;
-      if (Interrupt::asked()) throw Error(msg("exam"), msg("was interrupted before it began"), msg("begin it again"));
+      if (Interrupt::asked())
+        throw Error(msg("exam"), msg("was interrupted before it began"), msg("begin it again"));
       if (now->message() == told) continue;
       told = now->message();
       say_error(told);
@@ -92,8 +106,10 @@ class StylusSource final : public LiveSource {
   static StationPedal require_pedal() {
     auto pedal = load_station_pedal(station_pedal_path());
     if (!pedal)
-      throw Error(DeviceError::no_pedal, msg("stylus"), msg("this station has no foot pedal, and without one the handpiece stands still"),
-                  msg("plug one in and run `cavum devices --calibrate-pedal`; `cavum devices` shows what is plugged in, stylus and pedal"));
+      throw Error(
+          DeviceError::no_pedal, msg("stylus"),
+          msg("this station has no foot pedal, and without one the handpiece stands still"),
+          msg("plug one in and run `cavum devices --calibrate-pedal`; `cavum devices` shows what is plugged in, stylus and pedal"));
     return *pedal;
   }
 
@@ -111,16 +127,20 @@ class StylusSource final : public LiveSource {
 }  // namespace
 
 std::unique_ptr<LiveSource> open_live_source(const LiveSourceOptions& options) {
-  const StylusKind& kind = stylus_kinds().at(options.device, Name{"--device " + options.device}, {StylusHand::candidate, StylusHand::person});
+  const StylusKind& kind = stylus_kinds().at(options.device, Name{"--device " + options.device},
+                                             {StylusHand::candidate, StylusHand::person});
   if (kind.hand == StylusHand::candidate) {
     if (options.operator_name.empty())
-      throw Error(Name{"--device simulated"}, msg("needs a hand"), msg("add --operator expert, novice, perforator or careless"));
+      throw Error(Name{"--device simulated"}, msg("needs a hand"),
+                  msg("add --operator expert, novice, perforator or careless"));
     if (!options.bur.empty())
-      throw Error(Name{"--bur"}, msg("is for a stylus in a hand"), msg("leave it out: the operator chooses the bur that fits"));
+      throw Error(Name{"--bur"}, msg("is for a stylus in a hand"),
+                  msg("leave it out: the operator chooses the bur that fits"));
     return std::make_unique<SimulatedSource>(options);
   }
   if (!options.operator_name.empty())
-    throw Error(Name{"--operator " + options.operator_name}, msg("holds only the simulated stylus"), msg("leave it out, or take --device simulated"));
+    throw Error(Name{"--operator " + options.operator_name}, msg("holds only the simulated stylus"),
+                msg("leave it out, or take --device simulated"));
   return std::make_unique<StylusSource>(options, kind);
 }
 

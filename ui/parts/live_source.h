@@ -1,5 +1,6 @@
-// What gives place and pedal in an exam in real time: the built-in operator on a simulated Omni, or a stylus that is plugged in with the station's
-// foot pedal. With it comes what the session keeps of it.
+// What gives place and pedal in an exam in real time: the built-in operator on a simulated Omni, or
+// a stylus that is plugged in with the station's foot pedal. With it comes what the session keeps
+// of it.
 #pragma once
 
 #include <memory>
@@ -26,12 +27,12 @@ class LiveSource {
   /// As the station signs it.
   [[nodiscard]] virtual MotionSource source() const = 0;
   [[nodiscard]] virtual double position_quantum_mm() const = 0;
-  [[nodiscard]] virtual double peak_n() const { return 0.0; }        ///< that it bears; 0 = as usual
+  [[nodiscard]] virtual double peak_n() const { return 0.0; }  ///< that it bears; 0 = as usual
   [[nodiscard]] virtual double continuous_n() const { return 0.0; }  ///< the same
   /// Kept as notes of the session: what was set, and how it stood.
   [[nodiscard]] virtual Notes notes() const = 0;
-  /// Makes it ready for this exam and waits until it knows where the tip is; prints what it waits for. Throws Error when that takes over a minute, or
-  /// the wait is interrupted.
+  /// Makes it ready for this exam and waits until it knows where the tip is; prints what it waits
+  /// for. Throws Error when that takes over a minute, or the wait is interrupted.
   virtual void begin(const scenarios::ExamSetup& setup) = 0;
   /// After `begin`.
   [[nodiscard]] virtual ServoDevice& device() = 0;

@@ -18,7 +18,8 @@ CLI::Validator between(double low, double high) {
         double value = 0.0;
         return CLI::detail::lexical_cast(text, value) && value >= low && value <= high
                    ? std::string{}
-                   : tr("'{}' is no number from {} to {}", as_is(text), as_number(low), as_number(high));
+                   : tr("'{}' is no number from {} to {}", as_is(text), as_number(low),
+                        as_number(high));
       },
       tr("{} to {}", as_number(low), as_number(high)));
 }
@@ -37,7 +38,9 @@ CLI::Validator seed_check() {
 CLI::Validator one_of(const std::vector<std::string>& words) {
   return CLI::Validator(
       [words](const std::string& text) {
-        return std::find(words.begin(), words.end(), text) != words.end() ? std::string{} : tr("'{}' is not one of {}", as_is(text), list_of(words));
+        return std::find(words.begin(), words.end(), text) != words.end()
+                   ? std::string{}
+                   : tr("'{}' is not one of {}", as_is(text), list_of(words));
       },
       fmt::format("{{{}}}", fmt::join(words, ",")));
 }
@@ -46,8 +49,9 @@ CLI::Validator existing_file() {
   return CLI::Validator(
       [](const std::string& path) {
         std::error_code none;
-        return std::filesystem::exists(path, none) && !std::filesystem::is_directory(path, none) ? std::string{}
-                                                                                                 : tr("there is no file '{}'", as_is(path));
+        return std::filesystem::exists(path, none) && !std::filesystem::is_directory(path, none)
+                   ? std::string{}
+                   : tr("there is no file '{}'", as_is(path));
       },
       tr("FILE"));
 }
@@ -56,7 +60,9 @@ CLI::Validator existing_folder() {
   return CLI::Validator(
       [](const std::string& path) {
         std::error_code none;
-        return std::filesystem::is_directory(path, none) ? std::string{} : tr("there is no folder '{}'", as_is(path));
+        return std::filesystem::is_directory(path, none)
+                   ? std::string{}
+                   : tr("there is no folder '{}'", as_is(path));
       },
       tr("FOLDER"));
 }

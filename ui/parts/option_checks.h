@@ -1,5 +1,6 @@
-// What an option takes, said in the reader's language when it is something else. CLI11's own checks say it in English, and let NaN through. And the
-// types of CLI11 by name, for headers: it takes seconds to compile.
+// What an option takes, said in the reader's language when it is something else. CLI11's own checks
+// say it in English, and let NaN through. And the types of CLI11 by name, for headers: it takes
+// seconds to compile.
 #pragma once
 
 #include <string>

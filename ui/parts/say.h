@@ -1,4 +1,5 @@
-// What a verb tells: lines on standard output, and mistakes on standard error, in the reader's language.
+// What a verb tells: lines on standard output, and mistakes on standard error, in the reader's
+// language.
 #pragma once
 
 #include "engine/base/error.h"

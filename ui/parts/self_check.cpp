@@ -19,10 +19,13 @@ ArmClock simulated_clock() {
 
 }  // namespace
 
-Vec3 checked_at_mm(const StylusKind& kind) { return rotation(kind.placement.rotation).transposed(-kind.placement.offset_mm); }
+Vec3 checked_at_mm(const StylusKind& kind) {
+  return rotation(kind.placement.rotation).transposed(-kind.placement.offset_mm);
+}
 
 SelfChecked check_station_stylus(const std::string& id, const SelfCheckOptions& o) {
-  const StylusKind& kind = stylus_kinds().at(id, Name{"--stylus " + id}, {StylusHand::candidate, StylusHand::person});
+  const StylusKind& kind =
+      stylus_kinds().at(id, Name{"--stylus " + id}, {StylusHand::candidate, StylusHand::person});
   const SigningKey key = load_station_key(station_key_path());
   CheckHistory history(check_history_path());  // refused before anything moves
   StylusOptions open;
@@ -47,24 +50,30 @@ SelfChecked check_station_stylus(const std::string& id, const SelfCheckOptions& 
   done.stylus = {stylus->facts().id, stylus->facts().serial};
   done.name = stylus->facts().name;
   const std::int64_t now = read_clocks().utc_ns;
-  if (!o.new_history.empty()) history.begin_anew(done.stylus, o.new_history, now, key);
+  if (!o.new_history.empty()) history.begin_again(done.stylus, o.new_history, now, key);
   history.add_check(done.stylus, figures, now, key);
   done.entry = history.entries().back();
   return done;
 }
 
-bool needs_check(const CheckHistory& history, const CheckedStylus& stylus, double hours, std::int64_t now_utc_ns) {
+bool needs_check(const CheckHistory& history, const CheckedStylus& stylus, double hours,
+                 std::int64_t now_utc_ns) {
   constexpr double k_ns_in_hour = 3.6e12;
   const auto last = history.last_check(stylus);
-  if (!last || last->utc_ns > now_utc_ns || static_cast<double>(now_utc_ns - last->utc_ns) > hours * k_ns_in_hour) return true;
-  const bool good = last->verdict.outcome == CheckOutcome::learning || last->verdict.outcome == CheckOutcome::unchanged;
+  if (!last || last->utc_ns > now_utc_ns ||
+      static_cast<double>(now_utc_ns - last->utc_ns) > hours * k_ns_in_hour)
+    return true;
+  const bool good = last->verdict.outcome == CheckOutcome::learning ||
+                    last->verdict.outcome == CheckOutcome::unchanged;
   const auto decision = history.last_decision(stylus);
   return !good && !(decision && decision->go_on);
 }
 
-void decide_on_check(const CheckedStylus& stylus, bool go_on, const std::string& by, const std::string& reason) {
+void decide_on_check(const CheckedStylus& stylus, bool go_on, const std::string& by,
+                     const std::string& reason) {
   const SigningKey key = load_station_key(station_key_path());
-  CheckHistory(check_history_path()).add_decision(stylus, go_on, by, reason, read_clocks().utc_ns, key);
+  CheckHistory(check_history_path())
+      .add_decision(stylus, go_on, by, reason, read_clocks().utc_ns, key);
 }
 
 }  // namespace cavum::ui

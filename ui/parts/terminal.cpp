@@ -27,7 +27,10 @@ class ToFile : public std::streambuf {
   explicit ToFile(std::FILE* file) : file_(file) {}
 
  private:
-  int overflow(int c) override { return traits_type::eq_int_type(c, traits_type::eof()) ? traits_type::not_eof(c) : std::fputc(c, file_); }
+  int overflow(int c) override {
+    return traits_type::eq_int_type(c, traits_type::eof()) ? traits_type::not_eof(c)
+                                                           : std::fputc(c, file_);
+  }
   std::streamsize xsputn(const char* text, std::streamsize n) override {
     return static_cast<std::streamsize>(std::fwrite(text, 1, static_cast<std::size_t>(n), file_));
   }
@@ -39,9 +42,12 @@ class ToFile : public std::streambuf {
 }  // namespace
 
 struct SafeTerminal::Stream {
-  Stream(std::FILE*& standard, int fd, std::ostream& stream, int buffering) : standard_(standard), before_(standard), fd_(fd), stream_(stream) {
+  Stream(std::FILE*& standard, int fd, std::ostream& stream, int buffering)
+      : standard_(standard), before_(standard), fd_(fd), stream_(stream) {
     cookie_io_functions_t functions{};
-    functions.write = [](void* self, const char* text, std::size_t n) { return static_cast<Stream*>(self)->write({text, n}); };
+    functions.write = [](void* self, const char* text, std::size_t n) {
+      return static_cast<Stream*>(self)->write({text, n});
+    };
     std::fflush(before_);
     filtered_ = ::fopencookie(this, "w", functions);
     if (filtered_ == nullptr) return;  // without memory for it there is nothing to print either
@@ -61,7 +67,8 @@ struct SafeTerminal::Stream {
   Stream(const Stream&) = delete;
   Stream& operator=(const Stream&) = delete;
 
-  /// What fopencookie asks for: the bytes that were taken, 0 when it failed. No exception may pass through the C library.
+  /// What fopencookie asks for: the bytes that were taken, 0 when it failed. No exception may pass
+  /// through the C library.
   ssize_t write(std::string_view text) noexcept try {
     rest_ += text;
     const std::size_t whole = whole_characters(rest_);
@@ -84,7 +91,8 @@ struct SafeTerminal::Stream {
 };
 
 SafeTerminal::SafeTerminal()
-    : out_(std::make_unique<Stream>(stdout, STDOUT_FILENO, std::cout, ::isatty(STDOUT_FILENO) == 1 ? _IOLBF : _IOFBF)),
+    : out_(std::make_unique<Stream>(stdout, STDOUT_FILENO, std::cout,
+                                    ::isatty(STDOUT_FILENO) == 1 ? _IOLBF : _IOFBF)),
       err_(std::make_unique<Stream>(stderr, STDERR_FILENO, std::cerr, _IONBF)) {}
 
 SafeTerminal::~SafeTerminal() = default;

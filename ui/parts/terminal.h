@@ -1,5 +1,6 @@
-// What reaches the terminal: everything that the program prints, with printf or a stream, passes one place that takes out what could command a
-// terminal. Files come from strangers, and a verdict or a name in one may hold escape sequences.
+// What reaches the terminal: everything that the program prints, with printf or a stream, passes
+// one place that takes out what could command a terminal. Files come from strangers, and a verdict
+// or a name in one may hold escape sequences.
 #pragma once
 
 #include <cstdio>
@@ -8,8 +9,8 @@
 
 namespace cavum::ui {
 
-/// While it lives, stdout and stderr, std::cout and std::cerr write terminal_text() only. Line ends inside a name still make lines: print a text of
-/// a file with one_line().
+/// While it lives, stdout and stderr, std::cout and std::cerr write terminal_text() only. Line ends
+/// inside a name still make lines: print a text of a file with one_line().
 class SafeTerminal {
  public:
   SafeTerminal();

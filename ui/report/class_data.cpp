@@ -10,9 +10,10 @@
 namespace cavum::report {
 namespace {
 
-/// Of each cell of a box the share of the class, percent, that cut there beyond the target, or left the target standing. A cell on the border tells
-/// of the side that more of it lies on.
-std::vector<std::int8_t> heat_of(const cohort::ClassTooth& t, const ToothGrid& grid, const ChangedCells& box) {
+/// Of each cell of a box the share of the class, percent, that cut there beyond the target, or left
+/// the target standing. A cell on the border tells of the side that more of it lies on.
+std::vector<std::int8_t> heat_of(const cohort::ClassTooth& t, const ToothGrid& grid,
+                                 const ChangedCells& box) {
   const Octree& tree = t.tooth.octree;
   const int e = grid.edge_leaves;
   std::vector<std::int8_t> heat;
@@ -34,7 +35,8 @@ std::vector<std::int8_t> heat_of(const cohort::ClassTooth& t, const ToothGrid& g
     for (int y = 0; y < box.size.y; ++y)
       for (int x = 0; x < box.size.x; ++x) {
         const IVec3 cell = box.low + IVec3{x, y, z};
-        heat.push_back(static_cast<std::int8_t>(std::lround(cell_heat(grid.low_leaf + IVec3{cell.x * e, cell.y * e, cell.z * e}))));
+        heat.push_back(static_cast<std::int8_t>(
+            std::lround(cell_heat(grid.low_leaf + IVec3{cell.x * e, cell.y * e, cell.z * e}))));
       }
   return heat;
 }

@@ -19,18 +19,23 @@ namespace {
 /// Per cent of the scale that a session reached, where that counts for a comparison of attempts.
 std::optional<double> percent_of(const records::FiledSession& s, ReportReader reader) {
   const json& result = reader == ReportReader::student ? *s.shown : *s.result;
-  if (s.doubtful() || !result.is_object() || !result.contains("score") || !result["score"].is_object()) return std::nullopt;
+  if (s.doubtful() || !result.is_object() || !result.contains("score") ||
+      !result["score"].is_object())
+    return std::nullopt;
   const double max = result["score"].value("max", 0.0);
   return max > 0 ? std::optional(100 * result["score"].value("points", 0.0) / max) : std::nullopt;
 }
 
-/// How much marks vary from attempt to attempt in the class, and what that leaves of this candidate's. Simulated candidates and people are compared
-/// with their like alone.
-void add_progress(ReportFiling& f, const records::Registry& registry, const records::FiledSession& session, ReportReader reader) {
+/// How much marks vary from attempt to attempt in the class, and what that leaves of this
+/// candidate's. Simulated candidates and people are compared with their like alone.
+void add_progress(ReportFiling& f, const records::Registry& registry,
+                  const records::FiledSession& session, ReportReader reader) {
   std::map<std::string, std::vector<double>> marks;
   std::vector<double> own;
   for (const auto& s : registry.sessions) {
-    if (s.scenario_id != session.scenario_id || s.simulated.empty() != session.simulated.empty() || s.made_up_by) continue;
+    if (s.scenario_id != session.scenario_id || s.simulated.empty() != session.simulated.empty() ||
+        s.made_up_by)
+      continue;
     const auto percent = percent_of(s, reader);
     if (!percent) continue;
     marks[s.candidate].push_back(*percent);
@@ -46,12 +51,14 @@ void add_progress(ReportFiling& f, const records::Registry& registry, const reco
 std::vector<Message> doubts_of(const records::FiledSession& s) {
   std::vector<Message> out;
   for (const auto& f : s.findings) out.push_back(msg("filed with a finding: {}", f.message()));
-  for (const auto other : s.contested_by) out.push_back(msg("contested by entry {}, another ending of this exam", other));
+  for (const auto other : s.contested_by)
+    out.push_back(msg("contested by entry {}, another ending of this exam", other));
   return out;
 }
 
 /// All of this candidate's at this task that the reader may see.
-void list_attempts(ReportFiling& f, const records::Registry& registry, const records::FiledSession& session, ReportReader reader) {
+void list_attempts(ReportFiling& f, const records::Registry& registry,
+                   const records::FiledSession& session, ReportReader reader) {
   for (const auto& s : registry.sessions) {
     if (s.candidate != session.candidate || s.scenario_id != session.scenario_id) continue;
     const bool released = !s.shown->is_null();
@@ -76,30 +83,39 @@ void list_attempts(ReportFiling& f, const records::Registry& registry, const rec
 
 }  // namespace
 
-ReportLedger::ReportLedger(const std::string& folder) : places{folder}, content(records::read_ledger(places)) {
+ReportLedger::ReportLedger(const std::string& folder)
+    : places{folder}, content(records::read_ledger(places)) {
   if (!content.findings.empty())
-    throw Error(folder, msg("does not hold ({})", content.findings.front().message()), msg("see `cavum ledger verify {}`", folder));
+    throw Error(folder, msg("does not hold ({})", content.findings.front().message()),
+                msg("see `cavum ledger verify {}`", folder));
   registry = records::read_registry(content);
 }
 
-const records::FiledSession& ReportLedger::session(const std::string& file_sha256, const std::string& path) const {
+const records::FiledSession& ReportLedger::session(const std::string& file_sha256,
+                                                   const std::string& path) const {
   for (const auto& s : registry.sessions)
     if (s.file_sha256 == file_sha256) return s;
-  throw Error(path, msg("was never filed in the ledger {}", places.folder),
-              msg("file it with `cavum ledger add {} {}`, or leave --ledger out", places.folder, path));
+  throw Error(
+      path, msg("was never filed in the ledger {}", places.folder),
+      msg("file it with `cavum ledger add {} {}`, or leave --ledger out", places.folder, path));
 }
 
-ReportFiling filing_of(const ReportLedger& ledger, const records::FiledSession& session, ReportReader reader, bool with_name) {
+ReportFiling filing_of(const ReportLedger& ledger, const records::FiledSession& session,
+                       ReportReader reader, bool with_name) {
   const Message entry = msg("entry {}", session.seq);
   const bool shown = !session.shown->is_null();
   if (reader == ReportReader::student && !shown)
-    throw Error(entry, msg("is not released, and a student's report is of released results only"),
-                session.doubtful()
-                    ? msg("release it with `cavum ledger release {} --session {} --with-findings`, or use --for instructor", ledger.places.folder,
-                          session.seq)
-                    : msg("release it with `cavum ledger release {} --session {}`, or use --for instructor", ledger.places.folder, session.seq));
+    throw Error(
+        entry, msg("is not released, and a student's report is of released results only"),
+        session.doubtful()
+            ? msg("release it with `cavum ledger release {} --session {} --with-findings`, or use --for instructor",
+                  ledger.places.folder, session.seq)
+            : msg("release it with `cavum ledger release {} --session {}`, or use --for instructor",
+                  ledger.places.folder, session.seq));
   if (with_name && !shown)
-    throw Error(msg("--with-name"), msg("{} is not released, and names stand with released results only", entry), msg("release it first"));
+    throw Error(msg("--with-name"),
+                msg("{} is not released, and names stand with released results only", entry),
+                msg("release it first"));
   ReportFiling f;
   f.entry = session.seq;
   f.ledger = ledger.content.id;
@@ -109,8 +125,12 @@ ReportFiling filing_of(const ReportLedger& ledger, const records::FiledSession& 
   f.released = shown;
   f.findings = doubts_of(session);
   if (const records::Regrade* r = regrade_for(session, reader))
-    f.regrade = ReportRegrade{
-        r->seq, utc_text(r->utc_ns), r->reason, r->person, grading::verdict_in(*r->result), records::verdict_by_program(session, r->seq)};
+    f.regrade = ReportRegrade{r->seq,
+                              utc_text(r->utc_ns),
+                              r->reason,
+                              r->person,
+                              grading::verdict_in(*r->result),
+                              records::verdict_by_program(session, r->seq)};
   for (const auto& c : ledger.content.checkpoints)  // the one that the receipt of this entry shows
     if (c.size > session.seq) {
       f.root = to_hex(c.root);
@@ -122,7 +142,8 @@ ReportFiling filing_of(const ReportLedger& ledger, const records::FiledSession& 
     records::remove_forgotten(ledger.content, identities);
     const auto who = identities.of_pseudonym(session.candidate);
     if (!who)
-      throw Error(msg("--with-name"), msg("nobody is known behind {}", session.candidate), msg("the identity was forgotten; leave --with-name out"));
+      throw Error(msg("--with-name"), msg("nobody is known behind {}", session.candidate),
+                  msg("the identity was forgotten; leave --with-name out"));
     f.name = who->name.empty() ? who->id : who->name;
   }
   list_attempts(f, ledger.registry, session, reader);
@@ -134,27 +155,36 @@ const records::Regrade* regrade_for(const records::FiledSession& session, Report
   return session.regrade(reader == ReportReader::student ? session.shown_seq : session.result_seq);
 }
 
-Message not_the_filed_result(const records::FiledSession& session, const grading::Result& result, ReportReader reader) {
+Message not_the_filed_result(const records::FiledSession& session, const grading::Result& result,
+                             ReportReader reader) {
   constexpr double k_rounding = 1e-5;  // of the JSON
   const json& filed = reader == ReportReader::student ? *session.shown : *session.result;
-  const std::string by_program = records::verdict_by_program(session, reader == ReportReader::student ? session.shown_seq : session.result_seq);
-  const bool same = filed.is_object() && by_program == grading::verdict_name(result.verdict) && filed.contains("score") &&
+  const std::string by_program = records::verdict_by_program(
+      session, reader == ReportReader::student ? session.shown_seq : session.result_seq);
+  const bool same = filed.is_object() && by_program == grading::verdict_name(result.verdict) &&
+                    filed.contains("score") &&
                     std::fabs(filed["score"].value("points", -1.0) - result.points) < k_rounding &&
                     std::fabs(filed["score"].value("max", -1.0) - result.max_points) < k_rounding;
   if (same) return {};
-  const auto of = [](const std::string& verdict, double points) { return msg("{}, {} points", Term{verdict}, as_points(points)); };
-  const Message held = filed.is_object() && filed.contains("score") ? of(filed.value("verdict", ""), filed["score"].value("points", 0.0))
-                                                                    : msg("another"),
+  const auto of = [](const std::string& verdict, double points) {
+    return msg("{}, {} points", Term{verdict}, as_points(points));
+  };
+  const Message held = filed.is_object() && filed.contains("score")
+                           ? of(filed.value("verdict", ""), filed["score"].value("points", 0.0))
+                           : msg("another"),
                 ours = of(grading::verdict_name(result.verdict), result.points);
-  return reader == ReportReader::student ? msg("the released result is {}, and this report's is {}", held, ours)
-                                         : msg("the ledger's result is {}, and this report's is {}", held, ours);
+  return reader == ReportReader::student
+             ? msg("the released result is {}, and this report's is {}", held, ours)
+             : msg("the ledger's result is {}, and this report's is {}", held, ours);
 }
 
 void require_released_result(const records::FiledSession& session, const grading::Result& result) {
-  if (const Message other = not_the_filed_result(session, result, ReportReader::student); !other.empty())
-    throw Error(msg("entry {}", session.seq), other,
-                msg("leave --rubric and --scenario out, or enter the regrade by them and release it; another version of the program may mark "
-                    "differently"));
+  if (const Message other = not_the_filed_result(session, result, ReportReader::student);
+      !other.empty())
+    throw Error(
+        msg("entry {}", session.seq), other,
+        msg("leave --rubric and --scenario out, or enter the regrade by them and release it; another version of the program may mark "
+            "differently"));
 }
 
 }  // namespace cavum::report

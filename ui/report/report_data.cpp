@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/physics/bur/bur.h"
-#include "engine/tooth/beside.h"
+#include "engine/tooth/adjacent.h"
 #include "scenarios/exam/runner.h"
 #include "scenarios/review/picture.h"
 #include "ui/language/language.h"
@@ -67,9 +67,12 @@ json instruments_json(const ReportSource& s) {
     if (bur >= s.facts.burs_toml.size()) continue;
     const Bur p = parse_bur(s.facts.burs_toml[bur], fmt::format("bur_{:03}.toml", bur));
     json profile = json::array({{0.0, 0.0}});
-    for (const auto& at : p.profile.walk(k_silhouette_step_mm, std::min(k_silhouette_mm, p.profile.length_mm())))
+    for (const auto& at :
+         p.profile.walk(k_silhouette_step_mm, std::min(k_silhouette_mm, p.profile.length_mm())))
       profile.push_back({rounded(at.at.z_mm, 1e-3), rounded(at.at.r_mm, 1e-3)});
-    list.push_back({{"from_s", static_cast<double>(i) * k_tick_s}, {"name", tr("{}", Term{p.title})}, {"profile_mm", std::move(profile)}});
+    list.push_back({{"from_s", static_cast<double>(i) * k_tick_s},
+                    {"name", tr("{}", Term{p.title})},
+                    {"profile_mm", std::move(profile)}});
   }
   return list;
 }
@@ -80,14 +83,16 @@ json tissues_json(const Tooth& tooth, bool high_contrast) {
   std::size_t most = 0;
   for (const auto& t : tooth.tissues) most = std::max<std::size_t>(most, t.id);
   json list = json::array();
-  for (std::size_t id = 0; id <= most; ++id) list.push_back({{"name", id == k_air ? "air" : "unused"}, {"colour", "#ffffff"}, {"solid", false}});
+  for (std::size_t id = 0; id <= most; ++id)
+    list.push_back(
+        {{"name", id == k_air ? "air" : "unused"}, {"colour", "#ffffff"}, {"solid", false}});
   for (const auto& t : tooth.tissues)
     list[t.id] = {{"name", t.name},
                   {"words", tr(tissue_words(t.name))},
                   {"colour", scenarios::tissue_colour(t.id, high_contrast)},
                   {"solid", t.solid},
                   {"pulp", known_tissue(t.name).kind == TissueKind::pulp},
-                  {"beside", stands_beside(t.name)}};
+                  {"beside", is_adjacent(t.name)}};
   return list;
 }
 
@@ -123,9 +128,11 @@ json steps_json(const ReportSource& s) {
 }
 
 /// The other session without what both have in common.
-json beside_json(const ReportBeside& beside, const json& own) {
+json compared_json(const ComparedReport& beside, const json& own) {
   json other = report_data(beside.source);
-  for (const char* same : {"schema", "kind", "title", "high_contrast", "tissues", "scale_mm", "words", "decimal_sign"}) other.erase(same);
+  for (const char* same :
+       {"schema", "kind", "title", "high_contrast", "tissues", "scale_mm", "words", "decimal_sign"})
+    other.erase(same);
   for (const char* same : {"before", "tissue"})
     if (other["grid"][same] == own["grid"][same]) other["grid"].erase(same);
   other["name"] = beside.name;
@@ -139,7 +146,8 @@ json report_data(const ReportSource& s) {
                {"kind", s.scan ? "scan" : "session"},
                {"title", report_title(s)},
                {"high_contrast", s.input.scenario.accommodations.high_contrast},
-               {"tissues", tissues_json(s.input.seen_before(), s.input.scenario.accommodations.high_contrast)},
+               {"tissues",
+                tissues_json(s.input.seen_before(), s.input.scenario.accommodations.high_contrast)},
                {"grid", grid_json(s)},
                {"scale_mm", k_colours_end_mm}};
   if (s.scan) {
@@ -147,16 +155,21 @@ json report_data(const ReportSource& s) {
     return data;
   }
   json events = json::array(), moments = json::array();
-  for (const auto& e : s.events) events.push_back({{"t_s", e.t_s}, {"kind", name_of(e.kind)}, {"text", tr(e.text)}, {"site_mm", site(e.site_mm)}});
+  for (const auto& e : s.events)
+    events.push_back({{"t_s", e.t_s},
+                      {"kind", name_of(e.kind)},
+                      {"text", tr(e.text)},
+                      {"site_mm", site(e.site_mm)}});
   for (const auto& w : s.lost)
     for (const auto& m : w.items) {
       if (m.tick < 0) continue;
-      moments.push_back({{"criterion", tr("{}", Authored{w.criterion.title})},
-                         {"t_s", static_cast<double>(m.tick) * k_tick_s},
-                         {"to_t_s", static_cast<double>(std::max(m.tick, m.end_tick)) * k_tick_s},
-                         {"site_mm", site(m.site_mm)},
-                         {"what", tr(m.what())},
-                         {"points_lost", m.points_lost ? json(rounded(*m.points_lost, 1e-3)) : json()}});
+      moments.push_back(
+          {{"criterion", tr("{}", Authored{w.criterion.title})},
+           {"t_s", static_cast<double>(m.tick) * k_tick_s},
+           {"to_t_s", static_cast<double>(std::max(m.tick, m.end_tick)) * k_tick_s},
+           {"site_mm", site(m.site_mm)},
+           {"what", tr(m.what())},
+           {"points_lost", m.points_lost ? json(rounded(*m.points_lost, 1e-3)) : json()}});
     }
   data["duration_s"] = static_cast<double>(s.input.records.size()) * k_tick_s;
   data["motion"] = motion_json(s);
@@ -164,7 +177,7 @@ json report_data(const ReportSource& s) {
   data["events"] = std::move(events);
   data["moments"] = std::move(moments);
   data["steps_s"] = steps_json(s);
-  if (s.beside) data["beside"] = beside_json(*s.beside, data);
+  if (s.beside) data["beside"] = compared_json(*s.beside, data);
   add_words(data);
   return data;
 }

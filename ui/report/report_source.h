@@ -1,5 +1,6 @@
-// Everything that a report is made of: the result and what it was measured on, what is proved of the session, and what the school's ledger
-// knows. The page's data and the document are both made from it, so that they tell the same.
+// Everything that a report is made of: the result and what it was measured on, what is proved of
+// the session, and what the school's ledger knows. The page's data and the document are both made
+// from it, so that they tell the same.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,8 @@
 
 namespace cavum::report {
 
-/// Whom a report is for: a student sees the verdict and where each point went, an instructor every figure besides.
+/// Whom a report is for: a student sees the verdict and where each point went, an instructor every
+/// figure besides.
 enum class ReportReader { student, instructor };
 
 /// What is known of a session file's truth.
@@ -27,7 +29,7 @@ struct ReportIntegrity {
   std::string file;  ///< without its folder
   std::string file_sha256, chain_sha256, final_tooth_sha256, result_sha256, station_key, closed_utc;
   Replay replay = Replay::not_done;
-  bool at_filing = false;                          ///< `replay` was done when the ledger took the session in
+  bool at_filing = false;  ///< `replay` was done when the ledger took the session in
   std::vector<Message> proved, findings, remarks;  ///< as explain_session says them
 };
 
@@ -55,13 +57,15 @@ struct ReportFiling {
   std::uint64_t entry = 0, entries = 0;  ///< its number, and how many the root below is of
   std::string ledger, school, public_key, root, date;
   bool released = false;
-  std::vector<Message> findings;                       ///< what it was filed with, and that it is contested
-  std::optional<ReportRegrade> regrade;                ///< that gave the result of this report
-  Message not_filed;                                   ///< the result of this report is not the one that the ledger holds: how it differs
-  std::optional<std::string> name;                     ///< of the candidate: only when asked for, and released
-  std::vector<ReportAttempt> attempts;                 ///< of this candidate at this exam, the oldest first
-  std::optional<cohort::AttemptScatter> scatter = {};  ///< of the class at this exam; none where too few sat it twice
-  std::optional<cohort::Progress> progress = {};       ///< up to this attempt
+  std::vector<Message> findings;         ///< what it was filed with, and that it is contested
+  std::optional<ReportRegrade> regrade;  ///< that gave the result of this report
+  Message not_filed;  ///< the result of this report is not the one that the ledger holds: how it
+                      ///< differs
+  std::optional<std::string> name;      ///< of the candidate: only when asked for, and released
+  std::vector<ReportAttempt> attempts;  ///< of this candidate at this exam, the oldest first
+  std::optional<cohort::AttemptScatter> scatter =
+      {};  ///< of the class at this exam; none where too few sat it twice
+  std::optional<cohort::Progress> progress = {};  ///< up to this attempt
 };
 
 /// A scan of a prepared tooth, where that was marked and no recording.
@@ -86,7 +90,7 @@ struct ReportEvent {
 struct ReportSource;
 
 /// Another who sat the same exam, shown beside this one.
-struct ReportBeside {
+struct ComparedReport {
   const ReportSource& source;
   std::string name;  ///< "Candidate A18", "The built-in expert", in the reader's language
 };
@@ -95,7 +99,8 @@ struct ReportSource {
   const grading::Result& result;
   const grading::GradeInput& input;
   const grading::ReportFacts& facts;
-  const grading::Comparison* regrade = nullptr;  ///< what the session was sealed with, where this result is another one
+  const grading::Comparison* regrade =
+      nullptr;  ///< what the session was sealed with, where this result is another one
   ReportReader reader = ReportReader::instructor;
   ReportIntegrity integrity = {};
   std::optional<ReportFiling> filing = {};
@@ -104,15 +109,19 @@ struct ReportSource {
   std::vector<grading::Why> lost = {};  ///< of each criterion that lost points
   std::vector<grading::Lesson> lessons = {};
   std::vector<ReportEvent> events = {};  ///< in order of time
-  std::optional<ReportBeside> beside = {};
+  std::optional<ComparedReport> beside = {};
 };
 
-/// With what follows from the result: `lost`, `lessons` and `events`. The references must outlive it.
-[[nodiscard]] ReportSource report_source(const grading::Result& result, const grading::GradeInput& input, const grading::ReportFacts& facts,
+/// With what follows from the result: `lost`, `lessons` and `events`. The references must outlive
+/// it.
+[[nodiscard]] ReportSource report_source(const grading::Result& result,
+                                         const grading::GradeInput& input,
+                                         const grading::ReportFacts& facts,
                                          const scenarios::RubricSpec& rubric);
 
 /// The events of the exam and the breakthroughs seen in the force, in words and in order of time.
-[[nodiscard]] std::vector<ReportEvent> report_events(const grading::Result& result, const grading::GradeInput& input,
+[[nodiscard]] std::vector<ReportEvent> report_events(const grading::Result& result,
+                                                     const grading::GradeInput& input,
                                                      const std::vector<std::string>& burs_toml);
 
 /// Title of a report: the exam's.

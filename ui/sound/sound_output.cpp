@@ -23,11 +23,15 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Parameters in one word, so that they are always of one moment: rpm in tens, load in mN, shares in 255ths.
+/// Parameters in one word, so that they are always of one moment: rpm in tens, load in mN, shares
+/// in 255ths.
 std::uint64_t pack(const SoundParameters& p) noexcept {
-  const auto whole = [](double v, double most) { return static_cast<std::uint64_t>(std::isfinite(v) ? std::clamp(v, 0.0, most) + 0.5 : 0.0); };
-  return whole(p.rpm / 10.0, 131000.0) | whole(p.load_n * 1000.0, 32000.0) << 17 | whole(p.enamel_share * 255.0, 255.0) << 32 |
-         whole(p.dentin_share * 255.0, 255.0) << 40 | std::uint64_t{p.cutting} << 48;
+  const auto whole = [](double v, double most) {
+    return static_cast<std::uint64_t>(std::isfinite(v) ? std::clamp(v, 0.0, most) + 0.5 : 0.0);
+  };
+  return whole(p.rpm / 10.0, 131000.0) | whole(p.load_n * 1000.0, 32000.0) << 17 |
+         whole(p.enamel_share * 255.0, 255.0) << 32 | whole(p.dentin_share * 255.0, 255.0) << 40 |
+         std::uint64_t{p.cutting} << 48;
 }
 
 SoundParameters unpack(std::uint64_t word) noexcept {
@@ -40,24 +44,31 @@ SoundParameters unpack(std::uint64_t word) noexcept {
   return p;
 }
 
-/// OpenAL Soft takes its periods from its configuration alone, and 20 ms of them where nothing is said. ALSOFT_CONF names a file that is read last:
-/// one in memory here, unless the user has one of his own.
+/// OpenAL Soft takes its periods from its configuration alone, and 20 ms of them where nothing is
+/// said. ALSOFT_CONF names a file that is read last: one in memory here, unless the user has one of
+/// his own.
 void ask_for_short_periods() noexcept {
   if (getenv("ALSOFT_CONF") != nullptr) return;
   constexpr std::string_view k_wish = "[general]\nperiod_size = 256\nperiods = 3\n";
   const int file = memfd_create("cavum-openal", MFD_CLOEXEC);
-  if (file < 0 || write(file, k_wish.data(), k_wish.size()) != static_cast<ssize_t>(k_wish.size())) return;
-  setenv("ALSOFT_CONF", fmt::format("/proc/self/fd/{}", file).c_str(), 0);  // kept open: OpenAL may read it again
+  if (file < 0 || write(file, k_wish.data(), k_wish.size()) != static_cast<ssize_t>(k_wish.size()))
+    return;
+  setenv("ALSOFT_CONF", fmt::format("/proc/self/fd/{}", file).c_str(),
+         0);  // kept open: OpenAL may read it again
 }
 
-extern "C" void ignore_alsa(const char*, int, const char*, int, const char*, ...) {}  // NOLINT(cert-dcl50-cpp): what ALSA calls
+extern "C" void ignore_alsa(const char*, int, const char*, int, const char*, ...) {
+}  // NOLINT(cert-dcl50-cpp): what ALSA calls
 
-/// A computer without loudspeakers is said once, in our words (Player::failed): ALSA writes a dozen lines to standard error otherwise.
+/// A computer without loudspeakers is said once, in our words (Player::failed): ALSA writes a dozen
+/// lines to standard error otherwise.
 void hush_alsa() noexcept {
-  void* const alsa = dlopen("libasound.so.2", RTLD_NOW | RTLD_NODELETE);  // the one that OpenAL loads too
+  void* const alsa =
+      dlopen("libasound.so.2", RTLD_NOW | RTLD_NODELETE);  // the one that OpenAL loads too
   if (alsa == nullptr) return;
   using Handler = void (*)(const char*, int, const char*, int, const char*, ...);
-  if (const auto set = reinterpret_cast<int (*)(Handler)>(dlsym(alsa, "snd_lib_error_set_handler"))) set(&ignore_alsa);
+  if (const auto set = reinterpret_cast<int (*)(Handler)>(dlsym(alsa, "snd_lib_error_set_handler")))
+    set(&ignore_alsa);
 }
 
 /// An open device with a source that plays what is queued.
@@ -67,27 +78,32 @@ class Player {
     hush_alsa();
     device_ = alcOpenDevice(nullptr);
     if (device_ == nullptr) {
-      failed_ = "no sound device could be opened; plug in loudspeakers or headphones, or go on without sound";
+      failed_ =
+          "no sound device could be opened; plug in loudspeakers or headphones, or go on without sound";
       return;
     }
     const std::array<ALCint, 3> wish{ALC_FREQUENCY, SoundOutput::k_sample_rate_hz, 0};
     context_ = alcCreateContext(device_, wish.data());
     if (context_ == nullptr || alcMakeContextCurrent(context_) == ALC_FALSE) {
-      failed_ = "the sound device refuses to play; see whether another program holds it, or go on without sound";
+      failed_ =
+          "the sound device refuses to play; see whether another program holds it, or go on without sound";
       return;
     }
     ALCint periods_a_second = 0;
     alcGetIntegerv(device_, ALC_REFRESH, 1, &periods_a_second);
-    const double period = SoundOutput::k_sample_rate_hz / std::max(1.0, static_cast<double>(periods_a_second));
+    const double period =
+        SoundOutput::k_sample_rate_hz / std::max(1.0, static_cast<double>(periods_a_second));
     // one period, which the device takes at once, and a block that is being made
     const double blocks = std::ceil(period / SoundOutput::k_block_samples) + 1.0;
     for (int i = 0; i < std::clamp(static_cast<int>(blocks), 3, k_max_blocks); ++i) add_block();
     alGenSources(1, &source_);
     alSourcei(source_, AL_SOURCE_RELATIVE, AL_TRUE);
-    if (alGetError() != AL_NO_ERROR) failed_ = "the sound device gives no buffers; go on without sound";
+    if (alGetError() != AL_NO_ERROR)
+      failed_ = "the sound device gives no buffers; go on without sound";
     float_samples_ = alIsExtensionPresent("AL_EXT_float32") == AL_TRUE;
     if (alIsExtensionPresent("AL_SOFT_source_latency") == AL_TRUE)
-      offset_and_latency_ = reinterpret_cast<LPALGETSOURCEDVSOFT>(alGetProcAddress("alGetSourcedvSOFT"));
+      offset_and_latency_ =
+          reinterpret_cast<LPALGETSOURCEDVSOFT>(alGetProcAddress("alGetSourcedvSOFT"));
   }
   ~Player() {
     if (context_ != nullptr) {
@@ -116,7 +132,8 @@ class Player {
     return connected != ALC_FALSE;
   }
 
-  /// Takes back the buffers that were played. Once a round: a source that has stopped counts whatever is queued as played.
+  /// Takes back the buffers that were played. Once a round: a source that has stopped counts
+  /// whatever is queued as played.
   void take_back() {
     ALint played = 0;
     alGetSourcei(source_, AL_BUFFERS_PROCESSED, &played);
@@ -131,15 +148,20 @@ class Player {
     const ALuint buffer = spare_.back();
     spare_.pop_back();
     if (float_samples_) {
-      alBufferData(buffer, AL_FORMAT_MONO_FLOAT32, samples.data(), static_cast<ALsizei>(samples.size_bytes()), SoundOutput::k_sample_rate_hz);
+      alBufferData(buffer, AL_FORMAT_MONO_FLOAT32, samples.data(),
+                   static_cast<ALsizei>(samples.size_bytes()), SoundOutput::k_sample_rate_hz);
     } else {
       std::vector<std::int16_t> whole(samples.size());
-      std::transform(samples.begin(), samples.end(), whole.begin(), [](float s) { return static_cast<std::int16_t>(std::lround(s * 32767.0f)); });
-      alBufferData(buffer, AL_FORMAT_MONO16, whole.data(), static_cast<ALsizei>(whole.size() * sizeof whole[0]), SoundOutput::k_sample_rate_hz);
+      std::transform(samples.begin(), samples.end(), whole.begin(),
+                     [](float s) { return static_cast<std::int16_t>(std::lround(s * 32767.0f)); });
+      alBufferData(buffer, AL_FORMAT_MONO16, whole.data(),
+                   static_cast<ALsizei>(whole.size() * sizeof whole[0]),
+                   SoundOutput::k_sample_rate_hz);
     }
     alSourceQueueBuffers(source_, 1, &buffer);
   }
-  /// Plays on when everything had been played, from then on with a longer queue. True for such a dropout.
+  /// Plays on when everything had been played, from then on with a longer queue. True for such a
+  /// dropout.
   bool play_on() {
     ALint state = 0;
     alGetSourcei(source_, AL_SOURCE_STATE, &state);
@@ -226,7 +248,9 @@ void SoundOutput::Shared::play(Player& player, HandpieceSound& sound) {
     tell([&](SoundReport& r) {
       r.blocks += made;
       r.dropouts += dropout;
-      r.latency_ms = 1000.0 * (static_cast<double>(player.blocks()) * k_block_samples / k_sample_rate_hz + player.device_latency_s());
+      r.latency_ms =
+          1000.0 * (static_cast<double>(player.blocks()) * k_block_samples / k_sample_rate_hz +
+                    player.device_latency_s());
     });
     std::this_thread::sleep_for(2ms);
   }
@@ -234,7 +258,8 @@ void SoundOutput::Shared::play(Player& player, HandpieceSound& sound) {
 
 SoundOutput::SoundOutput() : shared_(std::make_shared<Shared>()) {
   ask_for_short_periods();
-  setenv("ALSOFT_LOGLEVEL", "0", 0);  // OpenAL's complaints, as with ALSA's; here, for the environment is no thread's own
+  setenv("ALSOFT_LOGLEVEL", "0",
+         0);  // OpenAL's complaints, as with ALSA's; here, for the environment is no thread's own
   try {
     thread_ = std::thread([shared = shared_] { run(shared); });
   } catch (const std::exception& e) {
@@ -256,8 +281,12 @@ SoundOutput::~SoundOutput() {
     thread_.detach();
 }
 
-void SoundOutput::set(const SoundParameters& parameters) noexcept { shared_->parameters.store(pack(parameters), std::memory_order_release); }
-void SoundOutput::set_muted(bool muted) noexcept { shared_->muted.store(muted, std::memory_order_release); }
+void SoundOutput::set(const SoundParameters& parameters) noexcept {
+  shared_->parameters.store(pack(parameters), std::memory_order_release);
+}
+void SoundOutput::set_muted(bool muted) noexcept {
+  shared_->muted.store(muted, std::memory_order_release);
+}
 
 SoundReport SoundOutput::report() const {
   const std::lock_guard lock(shared_->mutex);
@@ -267,7 +296,8 @@ SoundReport SoundOutput::report() const {
 void SoundOutput::run(const std::shared_ptr<Shared>& shared) noexcept {
   try {
     HandpieceSound sound(k_sample_rate_hz);
-    bool unplugged = false;  // a device that was there may come back; one that never was is not asked for again
+    bool unplugged =
+        false;  // a device that was there may come back; one that never was is not asked for again
     do {
       Player player;
       if (!player.failed().empty()) {
@@ -280,7 +310,8 @@ void SoundOutput::run(const std::shared_ptr<Shared>& shared) noexcept {
         });
         shared->play(player, sound);
         unplugged = !shared->stopped();
-        if (unplugged) shared->silent("the sound device is gone; plug it in again, or go on without sound");
+        if (unplugged)
+          shared->silent("the sound device is gone; plug it in again, or go on without sound");
       }
       std::unique_lock lock(shared->mutex);
       shared->changed.wait_for(lock, unplugged ? 5s : 0s, [&] { return shared->stopped(); });

@@ -20,8 +20,10 @@ using Clock = std::chrono::steady_clock;
 class Author {
  public:
   Author(const StationOptions& options, const std::string& scenario)
-      : document_(scenario), window_({"Cavum: authoring", options.width, options.height, options.monitor}) {
-    if (!options.script.empty()) script_ = Script(read_text_file(options.script), options.script, options.pictures);
+      : document_(scenario),
+        window_({"Cavum: authoring", options.width, options.height, options.monitor}) {
+    if (!options.script.empty())
+      script_ = Script(read_text_file(options.script), options.script, options.pictures);
     window_.walk_by_keys(false);  // every key has a meaning of its own here
     state_.screen = Screen::author_busy;
     state_.own_arrows = true;
@@ -37,7 +39,8 @@ class Author {
   int run() {
     while (!done_ && !ui::Interrupt::asked()) frame();
     if (!document_.unsaved() || discarded_) return 0;
-    ui::say_error(msg("{}: was left with changes that are not saved; they are in {}", document_.path(), list_of(document_.keep_aside())));
+    ui::say_error(msg("{}: was left with changes that are not saved; they are in {}",
+                      document_.path(), list_of(document_.keep_aside())));
     return 1;
   }
 
@@ -52,12 +55,16 @@ class Author {
     script_.step(window_, state_.screen, 0.0, seconds_since(start_));
     window_.begin_frame();
     state_.view.stereo = false;  // points are shown for one eye
-    const ScreenContext screen{look_.theme(), state_, scenario_, shelf_, nullptr, scene_.get(), nullptr, frame_s, true, window_.input()};
-    const AuthorContext context{screen,          document_, author_,    zones_, landmarks_, busy() ? mistakes_ : findings_->problems,
-                                findings_.get(), busy(),    floor_z_mm_};
+    const ScreenContext screen{look_.theme(), state_,  scenario_, shelf_, nullptr,
+                               scene_.get(),  nullptr, frame_s,   true,   window_.input()};
+    const AuthorContext context{
+        screen,          document_,  author_,
+        zones_,          landmarks_, busy() ? mistakes_ : findings_->problems,
+        findings_.get(), busy(),     floor_z_mm_};
     const AuthorWish wish = author_screen(context);
     window_.end_frame();
-    if (std::exchange(author_.shown_differs, false) || chosen_layer() != shown_layer_) show_bodies();
+    if (std::exchange(author_.shown_differs, false) || chosen_layer() != shown_layer_)
+      show_bodies();
     grant(wish);
     if (window_.closing()) {
       window_.stay_open();
@@ -66,9 +73,12 @@ class Author {
     window_.rest(began);
   }
 
-  [[nodiscard]] bool busy() const { return findings_ == nullptr || findings_->version != document_.version() || !findings_->checked; }
+  [[nodiscard]] bool busy() const {
+    return findings_ == nullptr || findings_->version != document_.version() || !findings_->checked;
+  }
 
-  /// What the text says, at once; what it means on the tooth, when the hand has rested for a moment.
+  /// What the text says, at once; what it means on the tooth, when the hand has rested for a
+  /// moment.
   void follow_text() {
     if (document_.version() != read_version_) {
       scenarios::ReadScenario read = scenarios::read_scenario(document_.text(), document_.path());
@@ -80,8 +90,10 @@ class Author {
       find_marks();
     }
     constexpr double k_rest_s = 0.4;
-    if (asked_version_ != document_.version() && (asked_version_ == 0 || seconds_since(changed_) > k_rest_s)) {
-      worker_.look_at({document_.version(), document_.reading(), document_.text(), document_.path(), document_.landmarks()});
+    if (asked_version_ != document_.version() &&
+        (asked_version_ == 0 || seconds_since(changed_) > k_rest_s)) {
+      worker_.look_at({document_.version(), document_.reading(), document_.text(), document_.path(),
+                       document_.landmarks()});
       asked_version_ = document_.version();
     }
     state_.screen = busy() ? Screen::author_busy : Screen::author;
@@ -92,14 +104,17 @@ class Author {
     author_.zone = std::min(author_.zone, zones_.empty() ? 0 : zones_.size() - 1);
     if (zones_.empty()) return;
     const AuthorZone& chosen = zones_[author_.zone];
-    author_.point = std::min(author_.point, chosen.points_mm.empty() ? 0 : chosen.points_mm.size() - 1);
-    author_.number = std::min(author_.number, chosen.numbers.empty() ? 0 : chosen.numbers.size() - 1);
+    author_.point =
+        std::min(author_.point, chosen.points_mm.empty() ? 0 : chosen.points_mm.size() - 1);
+    author_.number =
+        std::min(author_.number, chosen.numbers.empty() ? 0 : chosen.numbers.size() - 1);
   }
 
   /// Where the hand has put them, at once.
   void find_marks() {
     landmarks_.clear();
-    if (findings_ && findings_->tooth) landmarks_ = author_landmarks(findings_->tooth->found, document_.landmarks());
+    if (findings_ && findings_->tooth)
+      landmarks_ = author_landmarks(findings_->tooth->found, document_.landmarks());
     author_.landmark = std::min(author_.landmark, landmarks_.empty() ? 0 : landmarks_.size() - 1);
   }
 
@@ -109,7 +124,8 @@ class Author {
     findings_ = std::move(found);
     if (findings_->tooth && findings_->tooth != shown_tooth_) {
       shown_tooth_ = findings_->tooth;
-      scene_ = std::make_unique<Scene>(shown_tooth_->tooth.octree, shown_tooth_->tooth.tissues, shelf_, nullptr);
+      scene_ = std::make_unique<Scene>(shown_tooth_->tooth.octree, shown_tooth_->tooth.tissues,
+                                       shelf_, nullptr);
       bodies_version_ = 0;
     }
     find_marks();
@@ -120,7 +136,8 @@ class Author {
       chamber_mm_ = findings_->chamber_mm;
       floor_z_mm_ = low.z;
       if (!std::exchange(looked_, true))
-        state_.view.camera.target_mm = {static_cast<float>((low.x + high.x) / 2), static_cast<float>((low.y + high.y) / 2),
+        state_.view.camera.target_mm = {static_cast<float>((low.x + high.x) / 2),
+                                        static_cast<float>((low.y + high.y) / 2),
                                         static_cast<float>((low.z + high.z) / 2)};
       if (bodies_version_ != findings_->version) {
         bodies_ = findings_->body;
@@ -132,7 +149,9 @@ class Author {
     state_.screen = busy() ? Screen::author_busy : Screen::author;
   }
 
-  [[nodiscard]] std::size_t chosen_layer() const { return zones_.empty() ? 0 : static_cast<std::size_t>(zones_[author_.zone].layer); }
+  [[nodiscard]] std::size_t chosen_layer() const {
+    return zones_.empty() ? 0 : static_cast<std::size_t>(zones_[author_.zone].layer);
+  }
 
   /// That of the chosen zone stronger than the others.
   void show_bodies() {
@@ -166,7 +185,8 @@ class Author {
     const std::string name = suggestion ? author_.tooth_name.data() : "";
     document_.save(name);
     author_.ask_tooth = false;
-    author_.message = suggestion ? msg("Saved, and the tooth with its landmarks as {}.", name) : msg("Saved.");
+    author_.message =
+        suggestion ? msg("Saved, and the tooth with its landmarks as {}.", name) : msg("Saved.");
     return true;
   }
 
@@ -230,6 +250,8 @@ class Author {
 
 }  // namespace
 
-int run_author(const StationOptions& options, const std::string& scenario) { return Author(options, scenario).run(); }
+int run_author(const StationOptions& options, const std::string& scenario) {
+  return Author(options, scenario).run();
+}
 
 }  // namespace cavum::station

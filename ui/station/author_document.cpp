@@ -28,7 +28,10 @@ bool same_folder(const fs::path& a, const fs::path& b) {
 
 }  // namespace
 
-AuthorDocument::AuthorDocument(const std::string& path) : path_(path), now_{read_text_file(path), {}}, on_disk_(now_) { read_landmarks(); }
+AuthorDocument::AuthorDocument(const std::string& path)
+    : path_(path), now_{read_text_file(path), {}}, on_disk_(now_) {
+  read_landmarks();
+}
 
 void AuthorDocument::read_landmarks() {
   const bool knew = !tooth_path_.empty();
@@ -67,7 +70,8 @@ void AuthorDocument::make(const scenarios::TextChange& change, const std::string
 
 void AuthorDocument::put(const std::vector<NamedPoint>& landmarks, const std::string& name) {
   if (tooth_path_.empty())
-    throw Error(Name{path_}, msg("names a tooth that could not be read"), msg("mend the text or put the tooth there, then press F5"));
+    throw Error(Name{path_}, msg("names a tooth that could not be read"),
+                msg("mend the text or put the tooth there, then press F5"));
   if (landmarks != now_.landmarks) change_to({now_.text, landmarks}, name);
 }
 
@@ -91,7 +95,8 @@ bool AuthorDocument::redo() {
 
 AuthorDocument::ToothFile AuthorDocument::tooth_of(const std::string& text) const {
   const scenarios::Scenario s = scenarios::read_scenario(text, path_).scenario;
-  if (s.tooth_file.empty()) throw Error(Name{path_}, msg("names no tooth"), msg("write tooth = \"...\" in a text editor"));
+  if (s.tooth_file.empty())
+    throw Error(Name{path_}, msg("names no tooth"), msg("write tooth = \"...\" in a text editor"));
   ToothFile file{scenarios::find_tooth_file(s), {}, {}};
   const Bytes bytes = read_file(file.path);
   file.sum = sha256(bytes);
@@ -101,48 +106,59 @@ AuthorDocument::ToothFile AuthorDocument::tooth_of(const std::string& text) cons
 
 std::optional<AuthorDocument::ToothFile> AuthorDocument::tooth_to_write() const {
   if (tooth_path_.empty()) return std::nullopt;
-  const auto named = [this](const std::string& text) { return scenarios::read_scenario(text, path_).scenario.tooth_file; };
-  if (now_.landmarks == on_disk_.landmarks && (now_.text == on_disk_.text || named(now_.text) == named(on_disk_.text))) return std::nullopt;
+  const auto named = [this](const std::string& text) {
+    return scenarios::read_scenario(text, path_).scenario.tooth_file;
+  };
+  if (now_.landmarks == on_disk_.landmarks &&
+      (now_.text == on_disk_.text || named(now_.text) == named(on_disk_.text)))
+    return std::nullopt;
   ToothFile file = tooth_of(now_.text);
   if (file.tooth.placed_landmarks == now_.landmarks) return std::nullopt;
   return file;
 }
 
-bool AuthorDocument::may_be_written_anew(const ToothFile& file) const {
+bool AuthorDocument::may_be_overwritten(const ToothFile& file) const {
   std::error_code none;
   const fs::path folder = folder_of(path_);
   if (fs::is_symlink(file.path, none) || !same_folder(folder_of(file.path), folder)) return false;
   const auto shipped = shipped_folders(path_);
   // another tooth than the one that was read: the text's name of it was taken back
   return file.path == tooth_path_ &&
-         std::none_of(shipped.begin(), shipped.end(), [&](const fs::path& f) { return same_folder(f / "teeth", folder); });
+         std::none_of(shipped.begin(), shipped.end(),
+                      [&](const fs::path& f) { return same_folder(f / "teeth", folder); });
 }
 
 std::optional<std::string> AuthorDocument::new_tooth_name() const {
   const auto file = tooth_to_write();
-  if (!file || may_be_written_anew(*file)) return std::nullopt;
-  const std::string stem = fs::path(file->path).stem().string() + "_" + fs::path(path_).stem().string();
+  if (!file || may_be_overwritten(*file)) return std::nullopt;
+  const std::string stem =
+      fs::path(file->path).stem().string() + "_" + fs::path(path_).stem().string();
   std::string name = stem + ".cvt";
   std::error_code none;
-  for (int i = 2; fs::exists(folder_of(path_) / name, none); ++i) name = fmt::format("{}_{}.cvt", stem, i);
+  for (int i = 2; fs::exists(folder_of(path_) / name, none); ++i)
+    name = fmt::format("{}_{}.cvt", stem, i);
   return name;
 }
 
 void AuthorDocument::save(const std::string& tooth_name) {
   rest();
   if (read_text_file(path_) != on_disk_.text)
-    throw Error(Name{path_}, msg("was changed by somebody else meanwhile and is not overwritten"),
-                msg("press F5 to read it again; Ctrl+Z then brings your text back, and Ctrl+S saves it over theirs"));
+    throw Error(
+        Name{path_}, msg("was changed by somebody else meanwhile and is not overwritten"),
+        msg("press F5 to read it again; Ctrl+Z then brings your text back, and Ctrl+S saves it over theirs"));
   Draft saved = now_;
   if (auto file = tooth_to_write()) {
-    const bool anew = may_be_written_anew(*file);
+    const bool anew = may_be_overwritten(*file);
     std::string to = file->path;
     if (!anew) {
-      if (tooth_name.empty() || fs::path(tooth_name).filename() != tooth_name || !tooth_name.ends_with(".cvt"))
-        throw Error(Name{file->path}, msg("stays as it is, and the landmarks need a tooth of their own"),
+      if (tooth_name.empty() || fs::path(tooth_name).filename() != tooth_name ||
+          !tooth_name.ends_with(".cvt"))
+        throw Error(Name{file->path},
+                    msg("stays as it is, and the landmarks need a tooth of their own"),
                     msg("give it a name without folders that ends in .cvt"));
       to = (folder_of(path_) / tooth_name).string();
-      saved.text = scenarios::with_change(now_.text, scenarios::set_text(now_.text, path_, "tooth", tooth_name));
+      saved.text = scenarios::with_change(
+          now_.text, scenarios::set_text(now_.text, path_, "tooth", tooth_name));
     } else if (file->sum != tooth_sum_) {
       throw Error(Name{to}, msg("was changed by somebody else meanwhile and is not overwritten"),
                   msg("press F5 to read it again; Ctrl+Z then brings your points back"));

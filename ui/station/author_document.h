@@ -1,5 +1,6 @@
-// A scenario's text and its tooth's landmarks while their author works on them: changes, undo and redo, and saving, which never overwrites what
-// somebody else wrote meanwhile, nor a tooth that ships.
+// A scenario's text and its tooth's landmarks while their author works on them: changes, undo and
+// redo, and saving, which never overwrites what somebody else wrote meanwhile, nor a tooth that
+// ships.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,8 @@ namespace cavum::station {
 
 class AuthorDocument {
  public:
-  /// Throws Error when the scenario's file cannot be read. A tooth that cannot be read is none: its landmarks are nobody's.
+  /// Throws Error when the scenario's file cannot be read. A tooth that cannot be read is none: its
+  /// landmarks are nobody's.
   explicit AuthorDocument(const std::string& path);
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
@@ -29,7 +31,8 @@ class AuthorDocument {
   /// Something is not in the files yet.
   [[nodiscard]] bool unsaved() const noexcept { return now_ != on_disk_; }
 
-  /// Makes a change of the text as it is. What follows under the same name, until `rest`, is undone together with it: a pull of the mouse.
+  /// Makes a change of the text as it is. What follows under the same name, until `rest`, is undone
+  /// together with it: a pull of the mouse.
   void make(const scenarios::TextChange& change, const std::string& name);
   /// The same for the landmarks. Throws Error when the tooth could not be read.
   void put(const std::vector<NamedPoint>& landmarks, const std::string& name);
@@ -38,16 +41,20 @@ class AuthorDocument {
   bool undo();
   bool redo();
 
-  /// Where the landmarks were changed and the tooth's own file must stay as it is, a name for a new one beside the scenario: that file ships, or does
-  /// not lie beside the scenario. Throws Error when the tooth cannot be read.
+  /// Where the landmarks were changed and the tooth's own file must stay as it is, a name for a new
+  /// one beside the scenario: that file ships, or does not lie beside the scenario. Throws Error
+  /// when the tooth cannot be read.
   [[nodiscard]] std::optional<std::string> new_tooth_name() const;
-  /// Writes the scenario as one step, and before it, where its landmarks differ, the tooth: anew beside the scenario, what stood there kept as
-  /// NAME.before; or under `tooth_name`, a name without folders, which the text then bears. Throws Error when a file is not as it was read or saved
-  /// last, there is one of that name already, or it cannot be written; nothing is lost then.
+  /// Writes the scenario as one step, and before it, where its landmarks differ, the tooth: anew
+  /// beside the scenario, what stood there kept as NAME.before; or under `tooth_name`, a name
+  /// without folders, which the text then bears. Throws Error when a file is not as it was read or
+  /// saved last, there is one of that name already, or it cannot be written; nothing is lost then.
   void save(const std::string& tooth_name = "");
-  /// Takes what the files hold; what stood here can be had again by undo. Throws Error when the scenario cannot be read.
+  /// Takes what the files hold; what stood here can be had again by undo. Throws Error when the
+  /// scenario cannot be read.
   void read_again();
-  /// Keeps what is unsaved beside the file, NAME.unsaved and, where landmarks differ, NAME.unsaved.cvt. Returns their names.
+  /// Keeps what is unsaved beside the file, NAME.unsaved and, where landmarks differ,
+  /// NAME.unsaved.cvt. Returns their names.
   [[nodiscard]] std::vector<std::string> keep_aside() const;
 
  private:
@@ -67,7 +74,7 @@ class AuthorDocument {
   [[nodiscard]] ToothFile tooth_of(const std::string& text) const;
   /// The text's tooth where its file has other landmarks.
   [[nodiscard]] std::optional<ToothFile> tooth_to_write() const;
-  [[nodiscard]] bool may_be_written_anew(const ToothFile& file) const;
+  [[nodiscard]] bool may_be_overwritten(const ToothFile& file) const;
 
   std::string path_;
   Draft now_, on_disk_;

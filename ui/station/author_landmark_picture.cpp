@@ -13,7 +13,8 @@
 namespace cavum::station {
 namespace {
 
-// Found: a hollow green triangle. Put by a person: a filled orange square, with a line from where it was found. Of Okabe and Ito's palette.
+// Found: a hollow green triangle. Put by a person: a filled orange square, with a line from where
+// it was found. Of Okabe and Ito's palette.
 constexpr ImU32 k_found = IM_COL32(64, 205, 160, 255), k_by_person = IM_COL32(230, 159, 0, 255);
 constexpr float k_reach_px = 16.0F;
 
@@ -25,31 +26,40 @@ Vec3 eye_of(const AuthorContext& c) {
 }
 
 bool hidden(const AuthorContext& c, const AuthorLandmark& mark) {
-  return c.findings != nullptr && c.findings->tooth && hidden_in_tooth(*c.findings->tooth, eye_of(c), mark.at_mm);
+  return c.findings != nullptr && c.findings->tooth &&
+         hidden_in_tooth(*c.findings->tooth, eye_of(c), mark.at_mm);
 }
 
 void found_sign(ImDrawList& draw, ImVec2 at, float r, ImU32 colour) {
-  const ImVec2 top{at.x, at.y - r}, left{at.x - 0.87F * r, at.y + 0.5F * r}, right{at.x + 0.87F * r, at.y + 0.5F * r};
+  const ImVec2 top{at.x, at.y - r}, left{at.x - 0.87F * r, at.y + 0.5F * r},
+      right{at.x + 0.87F * r, at.y + 0.5F * r};
   draw.AddTriangle(top, left, right, IM_COL32(0, 0, 0, (colour >> IM_COL32_A_SHIFT) * 3 / 4), 4.0F);
   draw.AddTriangle(top, left, right, colour, 1.8F);
 }
 
 void put_sign(ImDrawList& draw, ImVec2 at, float r, ImU32 colour) {
-  draw.AddRectFilled({at.x - r, at.y - r}, {at.x + r, at.y + r}, IM_COL32(0, 0, 0, colour >> IM_COL32_A_SHIFT));
+  draw.AddRectFilled({at.x - r, at.y - r}, {at.x + r, at.y + r},
+                     IM_COL32(0, 0, 0, colour >> IM_COL32_A_SHIFT));
   draw.AddRectFilled({at.x - r + 2, at.y - r + 2}, {at.x + r - 2, at.y + r - 2}, colour);
 }
 
 struct Box {
   ImVec2 low, high;
-  [[nodiscard]] bool meets(const Box& b) const { return low.x < b.high.x && b.low.x < high.x && low.y < b.high.y && b.low.y < high.y; }
+  [[nodiscard]] bool meets(const Box& b) const {
+    return low.x < b.high.x && b.low.x < high.x && low.y < b.high.y && b.low.y < high.y;
+  }
 };
 
-Message words_of(const AuthorLandmark& mark) { return mark.by_person ? msg("{} (by hand)", mark.title()) : msg("{}", mark.title()); }
+Message words_of(const AuthorLandmark& mark) {
+  return mark.by_person ? msg("{} (by hand)", mark.title()) : msg("{}", mark.title());
+}
 
-/// The landmark's own place moved onto what it lies on; none, and a message, when the line of sight misses.
+/// The landmark's own place moved onto what it lies on; none, and a message, when the line of sight
+/// misses.
 std::optional<Vec3> met(const AuthorContext& c, const AuthorLandmark& mark, Vec3 from, Vec3 way) {
   if (c.findings == nullptr || !c.findings->tooth) return std::nullopt;
-  const auto at = landmark_in_sight(*c.findings->tooth, mark.name, from, normalized(way, {0, 0, -1}), mark.at_mm);
+  const auto at = landmark_in_sight(*c.findings->tooth, mark.name, from,
+                                    normalized(way, {0, 0, -1}), mark.at_mm);
   if (!at) c.state.message = msg("Nothing that a {} could lie on is seen there.", mark.title());
   return at;
 }
@@ -60,14 +70,18 @@ void draw_landmarks(const AuthorContext& c, ImDrawList& draw, const AuthorSight&
   const AuthorState& s = c.state;
   if (!s.landmarks_shown) return;
   const float px = c.screen.theme.scale, r = 6.5F * px;
-  std::vector<std::size_t> order;  // the chosen one's words stand whatever else there is, then those by hand, then what is in sight
+  std::vector<std::size_t> order;  // the chosen one's words stand whatever else there is, then
+                                   // those by hand, then what is in sight
   std::vector<bool> behind;
   for (std::size_t i = 0; i < c.landmarks.size(); ++i) {
     order.push_back(i);
     behind.push_back(hidden(c, c.landmarks[i]));
   }
-  const auto rank = [&](std::size_t i) { return s.by_landmarks && i == s.landmark ? 0 : c.landmarks[i].by_person ? 1 : behind[i] ? 3 : 2; };
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+  const auto rank = [&](std::size_t i) {
+    return s.by_landmarks && i == s.landmark ? 0 : c.landmarks[i].by_person ? 1 : behind[i] ? 3 : 2;
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
   std::vector<Box> taken;  // by signs and words
   for (const AuthorLandmark& mark : c.landmarks) {
     const ImVec2 at = sight.pixel(mark.at_mm);
@@ -93,8 +107,10 @@ void draw_landmarks(const AuthorContext& c, ImDrawList& draw, const AuthorSight&
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     const float gap = 13 * px;
     // beside the sign, else above or below it, where nothing else stands; the chosen one's anyway
-    const std::array<ImVec2, 4> corners{ImVec2{at.x + gap, at.y - 0.5F * size.y}, ImVec2{at.x - gap - size.x, at.y - 0.5F * size.y},
-                                        ImVec2{at.x - 0.5F * size.x, at.y - gap - size.y}, ImVec2{at.x - 0.5F * size.x, at.y + gap}};
+    const std::array<ImVec2, 4> corners{ImVec2{at.x + gap, at.y - 0.5F * size.y},
+                                        ImVec2{at.x - gap - size.x, at.y - 0.5F * size.y},
+                                        ImVec2{at.x - 0.5F * size.x, at.y - gap - size.y},
+                                        ImVec2{at.x - 0.5F * size.x, at.y + gap}};
     const auto* free = std::find_if(corners.begin(), corners.end(), [&](ImVec2 corner) {
       const Box box{corner, {corner.x + size.x, corner.y + size.y}};
       return std::none_of(taken.begin(), taken.end(), [&](const Box& b) { return b.meets(box); });
@@ -103,7 +119,9 @@ void draw_landmarks(const AuthorContext& c, ImDrawList& draw, const AuthorSight&
     const ImVec2 corner = free == corners.end() ? corners[0] : *free;
     taken.push_back({corner, {corner.x + size.x, corner.y + size.y}});
     ImGui::LogText("%s\n", text.c_str());
-    author_words(draw, corner, chosen ? IM_COL32_WHITE : shade(mark.by_person ? k_by_person : k_found), text.c_str());
+    author_words(draw, corner,
+                 chosen ? IM_COL32_WHITE : shade(mark.by_person ? k_by_person : k_found),
+                 text.c_str());
   }
 }
 
@@ -129,7 +147,9 @@ bool take_landmark(const AuthorContext& c, const AuthorSight& sight, ImVec2 mous
 
 void pull_landmark(const AuthorContext& c, const AuthorSight& sight, ImVec2 mouse) {
   const AuthorState& s = c.state;
-  if (s.landmark >= c.landmarks.size() || !ImGui::IsMouseDragging(ImGuiMouseButton_Left, 3.0F * c.screen.theme.scale)) return;
+  if (s.landmark >= c.landmarks.size() ||
+      !ImGui::IsMouseDragging(ImGuiMouseButton_Left, 3.0F * c.screen.theme.scale))
+    return;
   const ImVec2 moved = ImGui::GetIO().MouseDelta;
   if (moved.x == 0 && moved.y == 0) return;
   const AuthorLandmark& mark = c.landmarks[s.landmark];
@@ -146,10 +166,13 @@ void landmark_arrows(const AuthorContext& c) {
   const Camera& camera = c.screen.state.view.camera;
   const AuthorLandmark& mark = c.landmarks[s.landmark];
   const double step = ImGui::GetIO().KeyShift ? 0.01 : 0.1;
-  const Vec3 middle{camera.target_mm.x, camera.target_mm.y, camera.target_mm.z}, way = normalized(middle - eye_of(c), {0, 0, -1});
+  const Vec3 middle{camera.target_mm.x, camera.target_mm.y, camera.target_mm.z},
+      way = normalized(middle - eye_of(c), {0, 0, -1});
   constexpr double k_before_mm = 60;  // before all of the tooth
-  const Vec3 wanted = mark.at_mm + camera.right() * (step * across) + camera.up() * (step * upwards);
-  if (const auto to = met(c, mark, wanted - way * k_before_mm, way)) author_move_landmark(c, mark, *to, false);
+  const Vec3 wanted =
+      mark.at_mm + camera.right() * (step * across) + camera.up() * (step * upwards);
+  if (const auto to = met(c, mark, wanted - way * k_before_mm, way))
+    author_move_landmark(c, mark, *to, false);
 }
 
 void landmark_list(const AuthorContext& c) {
@@ -181,7 +204,8 @@ void landmark_list(const AuthorContext& c) {
   if (!mark.by_person)
     quiet_text(t, msg("Found in the tooth."));
   else if (mark.found_mm)
-    quiet_text(t, msg("Put by hand, {} from where it was found. X: back there.", as_mm(length(mark.at_mm - *mark.found_mm))));
+    quiet_text(t, msg("Put by hand, {} from where it was found. X: back there.",
+                      as_mm(length(mark.at_mm - *mark.found_mm))));
   else
     quiet_text(t, msg("Put by hand; none was found. X: takes it out."));
 }

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/tooth/adjacent.h"
 #include "engine/tooth/anatomy/placed.h"
-#include "engine/tooth/beside.h"
 
 namespace cavum::station {
 namespace {
@@ -14,12 +14,16 @@ enum class LiesOn { outside, pulp, nothing };
 
 LiesOn lies_on(const std::string& name) {
   if (name.starts_with("pulp_horn") || name == "chamber_roof") return LiesOn::pulp;
-  return name == "chamber_floor" || name.starts_with("canal_mouth") ? LiesOn::nothing : LiesOn::outside;
+  return name == "chamber_floor" || name.starts_with("canal_mouth") ? LiesOn::nothing
+                                                                    : LiesOn::outside;
 }
 
-/// The part of a line that lies over the tooth's box: from and to, mm along `way`; from > to when there is none.
+/// The part of a line that lies over the tooth's box: from and to, mm along `way`; from > to when
+/// there is none.
 std::pair<double, double> over_box(const Octree& tree, Vec3 eye, Vec3 way) {
-  const Vec3 low = tree.origin_mm(), high = low + Vec3{1.0 * tree.size().x, 1.0 * tree.size().y, 1.0 * tree.size().z} * tree.leaf_mm();
+  const Vec3 low = tree.origin_mm(),
+             high = low + Vec3{1.0 * tree.size().x, 1.0 * tree.size().y, 1.0 * tree.size().z} *
+                              tree.leaf_mm();
   double from = 0, to = 1e6;
   const auto axis = [&](double e, double w, double a, double b) {
     if (std::fabs(w) < 1e-12) {
@@ -36,9 +40,11 @@ std::pair<double, double> over_box(const Octree& tree, Vec3 eye, Vec3 way) {
   return {from, to};
 }
 
-/// The first place along a line where `outside_mm(place)`, at most the distance to go from there, is negative; to a hundredth of a leaf.
+/// The first place along a line where `outside_mm(place)`, at most the distance to go from there,
+/// is negative; to a hundredth of a leaf.
 template <class Outside>
-std::optional<Vec3> first_inside(const Octree& tree, Vec3 eye, Vec3 way, const Outside& outside_mm) {
+std::optional<Vec3> first_inside(const Octree& tree, Vec3 eye, Vec3 way,
+                                 const Outside& outside_mm) {
   const auto [from, to] = over_box(tree, eye, way);
   const double least = 0.25 * tree.leaf_mm();
   double out = from;
@@ -81,46 +87,58 @@ Term AuthorLandmark::title() const {
   return {words};
 }
 
-std::vector<AuthorLandmark> author_landmarks(const Landmarks& found, const std::vector<NamedPoint>& placed) {
+std::vector<AuthorLandmark> author_landmarks(const Landmarks& found,
+                                             const std::vector<NamedPoint>& placed) {
   Landmarks all = found;
   place_landmarks(placed, all);
   const std::vector<NamedPoint> before = named_points(found);
   std::vector<AuthorLandmark> list;
   for (const NamedPoint& p : named_points(all)) {
-    AuthorLandmark mark{p.name, p.at_mm, {}, std::find(all.moved.begin(), all.moved.end(), p.name) != all.moved.end()};
-    const auto same = std::find_if(before.begin(), before.end(), [&](const NamedPoint& b) { return b.name == p.name; });
+    AuthorLandmark mark{p.name,
+                        p.at_mm,
+                        {},
+                        std::find(all.moved.begin(), all.moved.end(), p.name) != all.moved.end()};
+    const auto same = std::find_if(before.begin(), before.end(),
+                                   [&](const NamedPoint& b) { return b.name == p.name; });
     if (same != before.end()) mark.found_mm = same->at_mm;
     list.push_back(mark);
   }
   return list;
 }
 
-std::vector<NamedPoint> with_landmark(std::vector<NamedPoint> placed, const std::string& name, Vec3 at_mm) {
+std::vector<NamedPoint> with_landmark(std::vector<NamedPoint> placed, const std::string& name,
+                                      Vec3 at_mm) {
   const auto rounded = [](double v) { return std::round(v * 1000) / 1000; };
   const NamedPoint point{name, {rounded(at_mm.x), rounded(at_mm.y), rounded(at_mm.z)}};
-  const auto same = std::find_if(placed.begin(), placed.end(), [&](const NamedPoint& p) { return p.name == name; });
+  const auto same = std::find_if(placed.begin(), placed.end(),
+                                 [&](const NamedPoint& p) { return p.name == name; });
   if (same != placed.end()) {
     *same = point;
     return placed;
   }
   if (placed.size() >= k_max_placed)
-    throw Error(Name{name}, msg("would be the {}th landmark put by hand, and a tooth keeps {}", placed.size() + 1, k_max_placed),
+    throw Error(Name{name},
+                msg("would be the {}th landmark put by hand, and a tooth keeps {}",
+                    placed.size() + 1, k_max_placed),
                 msg("take one back that was found just as well"));
   placed.push_back(point);
   return placed;
 }
 
-std::vector<NamedPoint> without_landmark(std::vector<NamedPoint> placed, const std::string& name, const Landmarks& found) {
+std::vector<NamedPoint> without_landmark(std::vector<NamedPoint> placed, const std::string& name,
+                                         const Landmarks& found) {
   std::erase_if(placed, [&](const NamedPoint& p) { return p.name == name; });
   Landmarks all = found;
   place_landmarks(placed, all);
   for (const NamedPoint& p : placed)
     if (std::find(all.moved.begin(), all.moved.end(), p.name) == all.moved.end())
-      throw Error(Name{name}, msg("stands before {} in its list", p.name), msg("take {} back first", p.name));
+      throw Error(Name{name}, msg("stands before {} in its list", p.name),
+                  msg("take {} back first", p.name));
   return placed;
 }
 
-std::optional<Vec3> landmark_in_sight(const AuthorTooth& tooth, const std::string& name, Vec3 eye_mm, Vec3 way, Vec3 is_mm) {
+std::optional<Vec3> landmark_in_sight(const AuthorTooth& tooth, const std::string& name,
+                                      Vec3 eye_mm, Vec3 way, Vec3 is_mm) {
   const Octree& tree = tooth.alone;
   switch (lies_on(name)) {
     case LiesOn::outside:
@@ -128,7 +146,8 @@ std::optional<Vec3> landmark_in_sight(const AuthorTooth& tooth, const std::strin
     case LiesOn::pulp: {
       const std::uint8_t pulp = tooth.tooth.tissue_id("pulp");
       Octree::Cursor cursor;
-      return first_inside(tree, eye_mm, way, [&](Vec3 p) { return tree.tissue_at(p, cursor) == pulp ? -1.0 : 0.0; });
+      return first_inside(tree, eye_mm, way,
+                          [&](Vec3 p) { return tree.tissue_at(p, cursor) == pulp ? -1.0 : 0.0; });
     }
     default:
       return eye_mm + way * dot(is_mm - eye_mm, way);

@@ -17,7 +17,8 @@ ImU32 colour_of(AuthorLayer layer, int opacity) {
   return IM_COL32(c[0], c[1], c[2], opacity);
 }
 
-void draw_outline(ImDrawList& draw, const AuthorSight& sight, const AuthorZone& zone, bool chosen, float px) {
+void draw_outline(ImDrawList& draw, const AuthorSight& sight, const AuthorZone& zone, bool chosen,
+                  float px) {
   const std::vector<Vec3>& p = zone.points_mm;
   const ImU32 colour = colour_of(zone.layer, chosen ? 255 : 130);
   const float width = chosen ? 2.0F * px : px;
@@ -27,17 +28,20 @@ void draw_outline(ImDrawList& draw, const AuthorSight& sight, const AuthorZone& 
     author_line(draw, pixel(a), pixel(b), colour, zone.closed ? width : 0.5F * width);
     if (zone.closed || !(zone.half_width_mm > 0)) continue;
     // the sides of a stroke, and round its points
-    const Vec3 along = normalized(b - a, {1, 0, 0}), aside = Vec3{-along.y, along.x, 0} * zone.half_width_mm;
+    const Vec3 along = normalized(b - a, {1, 0, 0}),
+               aside = Vec3{-along.y, along.x, 0} * zone.half_width_mm;
     author_line(draw, pixel(a + aside), pixel(b + aside), colour, width);
     author_line(draw, pixel(a - aside), pixel(b - aside), colour, width);
     constexpr int k_parts = 12;
     for (const bool end : {false, true}) {
-      const Vec3 middle = end ? b : a, out = along * (end ? zone.half_width_mm : -zone.half_width_mm);
+      const Vec3 middle = end ? b : a,
+                 out = along * (end ? zone.half_width_mm : -zone.half_width_mm);
       ImVec2 last = pixel(middle + aside);
       for (int k = 1; k <= k_parts; ++k) {
         const double turn = 3.14159265358979 * k / k_parts;
         const ImVec2 now = pixel(middle + aside * std::cos(turn) + out * std::sin(turn));
-        if ((!end && i == 0) || (end && i + 2 == p.size())) author_line(draw, last, now, colour, width);
+        if ((!end && i == 0) || (end && i + 2 == p.size()))
+          author_line(draw, last, now, colour, width);
         last = now;
       }
     }
@@ -49,31 +53,39 @@ std::pair<Vec3, Vec3> depth_line(const AuthorContext& c, const AuthorZone& zone)
   Vec3 middle;
   for (const Vec3 p : zone.points_mm) middle += p / static_cast<double>(zone.points_mm.size());
   const Vec3 top = zone.in_tooth(middle);
-  const auto targets = std::count_if(c.zones.begin(), c.zones.end(), [](const AuthorZone& z) { return z.layer == AuthorLayer::target; });
+  const auto targets = std::count_if(c.zones.begin(), c.zones.end(), [](const AuthorZone& z) {
+    return z.layer == AuthorLayer::target;
+  });
   // a floor below the surface's lowest place is deeper than the opening's mean level says
   const double floor = targets == 1 && !c.busy ? c.floor_z_mm : top.z - *zone.depth_mm;
   return {top, {top.x, top.y, floor}};
 }
 
-void draw_depth(ImDrawList& draw, const AuthorContext& c, const AuthorSight& sight, const AuthorZone& zone, float px) {
+void draw_depth(ImDrawList& draw, const AuthorContext& c, const AuthorSight& sight,
+                const AuthorZone& zone, float px) {
   const auto [top, floor] = depth_line(c, zone);
   const ImVec2 a = sight.pixel(top), b = sight.pixel(floor);
   author_line(draw, a, b, colour_of(zone.layer, 255), 1.5F * px);
   const float r = 8.0F * px;
-  draw.AddQuadFilled({b.x - r, b.y}, {b.x, b.y - r}, {b.x + r, b.y}, {b.x, b.y + r}, IM_COL32(0, 0, 0, 220));
+  draw.AddQuadFilled({b.x - r, b.y}, {b.x, b.y - r}, {b.x + r, b.y}, {b.x, b.y + r},
+                     IM_COL32(0, 0, 0, 220));
   const float s = r - 2.0F * px;
-  draw.AddQuadFilled({b.x - s, b.y}, {b.x, b.y - s}, {b.x + s, b.y}, {b.x, b.y + s}, colour_of(zone.layer, 255));
-  if (std::hypot(a.x - b.x, a.y - b.y) < 3 * r) return;  // from above the word would cover the points
+  draw.AddQuadFilled({b.x - s, b.y}, {b.x, b.y - s}, {b.x + s, b.y}, {b.x, b.y + s},
+                     colour_of(zone.layer, 255));
+  if (std::hypot(a.x - b.x, a.y - b.y) < 3 * r)
+    return;  // from above the word would cover the points
   const std::string word = tr("depth {}", as_mm(*zone.depth_mm, k_as_needed));
   author_words(draw, {b.x + r + 3, b.y}, IM_COL32_WHITE, word.c_str());
 }
 
-void draw_points(ImDrawList& draw, const AuthorSight& sight, const AuthorZone& zone, std::size_t chosen, float px) {
+void draw_points(ImDrawList& draw, const AuthorSight& sight, const AuthorZone& zone,
+                 std::size_t chosen, float px) {
   for (std::size_t i = 0; i < zone.points_mm.size(); ++i) {
     const ImVec2 at = sight.pixel(zone.in_tooth(zone.points_mm[i]));
     const bool this_one = i == chosen;
     draw.AddCircleFilled(at, (this_one ? 9.0F : 6.5F) * px, IM_COL32(0, 0, 0, 220));
-    draw.AddCircleFilled(at, (this_one ? 6.5F : 4.5F) * px, this_one ? IM_COL32(255, 255, 255, 255) : colour_of(zone.layer, 255));
+    draw.AddCircleFilled(at, (this_one ? 6.5F : 4.5F) * px,
+                         this_one ? IM_COL32(255, 255, 255, 255) : colour_of(zone.layer, 255));
     if (this_one) draw.AddCircle(at, 12.0F * px, IM_COL32(255, 255, 255, 255), 24, 2.0F * px);
     const std::string number = std::to_string(i + 1);
     author_words(draw, {at.x + 13 * px, at.y - 20 * px}, IM_COL32_WHITE, number.c_str());
@@ -86,7 +98,8 @@ void take_hold(const AuthorContext& c, const AuthorSight& sight, ImVec2 mouse) {
   for (std::size_t z = 0; z < c.zones.size(); ++z) {
     const AuthorZone& zone = c.zones[z];
     for (std::size_t i = 0; i < zone.points_mm.size(); ++i)
-      if (const double d = pixels_apart(mouse, sight.pixel(zone.in_tooth(zone.points_mm[i]))); d < nearest) {
+      if (const double d = pixels_apart(mouse, sight.pixel(zone.in_tooth(zone.points_mm[i])));
+          d < nearest) {
         nearest = d;
         if (s.zone != z) s.number = 0;
         s.zone = z;
@@ -94,7 +107,9 @@ void take_hold(const AuthorContext& c, const AuthorSight& sight, ImVec2 mouse) {
         s.pulls_point = true;
       }
   }
-  if (s.pulls_point || s.zone >= c.zones.size() || !c.zones[s.zone].depth_mm || c.zones[s.zone].points_mm.empty()) return;
+  if (s.pulls_point || s.zone >= c.zones.size() || !c.zones[s.zone].depth_mm ||
+      c.zones[s.zone].points_mm.empty())
+    return;
   s.pulls_depth = pixels_apart(mouse, sight.pixel(depth_line(c, c.zones[s.zone]).second)) < nearest;
 }
 
@@ -102,18 +117,23 @@ void pull(const AuthorContext& c, const AuthorSight& sight, ImVec2 mouse) {
   AuthorState& s = c.state;
   const AuthorZone& zone = c.zones[s.zone];
   if (s.pulls_point && s.point < zone.points_mm.size()) {
-    const Vec3 is = zone.in_tooth(zone.points_mm[s.point]), to = sight.on_plane(mouse, is, zone.frame.z, is) - zone.frame.at;
+    const Vec3 is = zone.in_tooth(zone.points_mm[s.point]),
+               to = sight.on_plane(mouse, is, zone.frame.z, is) - zone.frame.at;
     constexpr double k_grid = 100.0;  // hundredths of a mm
-    author_move_point(c, zone, s.point, {std::round(k_grid * dot(to, zone.frame.x)) / k_grid, std::round(k_grid * dot(to, zone.frame.y)) / k_grid, 0},
+    author_move_point(c, zone, s.point,
+                      {std::round(k_grid * dot(to, zone.frame.x)) / k_grid,
+                       std::round(k_grid * dot(to, zone.frame.y)) / k_grid, 0},
                       true);
   }
   if (s.pulls_depth && zone.depth_mm) {
     const auto [top, floor] = depth_line(c, zone);
-    const ImVec2 a = sight.pixel(floor), b = sight.pixel(floor - Vec3{0, 0, 1}), moved = ImGui::GetIO().MouseDelta;
+    const ImVec2 a = sight.pixel(floor), b = sight.pixel(floor - Vec3{0, 0, 1}),
+                 moved = ImGui::GetIO().MouseDelta;
     const double x = b.x - a.x, y = b.y - a.y, px_per_mm2 = x * x + y * y;
     constexpr double k_min_px = 6;  // a millimetre of depth; seen from above it is a point
     if (px_per_mm2 > k_min_px * k_min_px && (moved.x != 0 || moved.y != 0))
-      author_set_number(c, zone.numbers[0], *zone.depth_mm + (moved.x * x + moved.y * y) / px_per_mm2, true);
+      author_set_number(c, zone.numbers[0],
+                        *zone.depth_mm + (moved.x * x + moved.y * y) / px_per_mm2, true);
   }
 }
 
@@ -131,7 +151,8 @@ void arrows(const AuthorContext& c) {
   Vec3 to = zone.points_mm[s.point];
   const auto go = [&](Vec3 way, int times) {
     const double x = dot(way, zone.frame.x), y = dot(way, zone.frame.y);
-    (std::fabs(x) >= std::fabs(y) ? to.x : to.y) += step * times * ((std::fabs(x) >= std::fabs(y) ? x : y) >= 0 ? 1 : -1);
+    (std::fabs(x) >= std::fabs(y) ? to.x : to.y) +=
+        step * times * ((std::fabs(x) >= std::fabs(y) ? x : y) >= 0 ? 1 : -1);
   };
   go(camera.right(), across);
   go(camera.up(), upwards);
@@ -145,7 +166,8 @@ void draw_zones(const AuthorContext& c, ImDrawList& draw, const AuthorSight& sig
     if (z != s.zone && s.shown[static_cast<std::size_t>(c.zones[z].layer)]) {
       draw_outline(draw, sight, c.zones[z], false, px);
       for (const Vec3 p : c.zones[z].points_mm)
-        draw.AddCircleFilled(sight.pixel(c.zones[z].in_tooth(p)), 4.0F * px, colour_of(c.zones[z].layer, 200));
+        draw.AddCircleFilled(sight.pixel(c.zones[z].in_tooth(p)), 4.0F * px,
+                             colour_of(c.zones[z].layer, 200));
     }
   const AuthorZone& chosen = c.zones[s.zone];
   draw_outline(draw, sight, chosen, true, px);
@@ -168,7 +190,8 @@ void author_picture(const AuthorContext& c, ImVec2 at, ImVec2 size) {
   draw.PopClipRect();
 
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  if (over && ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !(s.by_landmarks && take_landmark(c, sight, mouse))) {
+  if (over && ImGui::IsMouseClicked(ImGuiMouseButton_Left) &&
+      !(s.by_landmarks && take_landmark(c, sight, mouse))) {
     if (zones) take_hold(c, sight, mouse);
     if (s.pulls_point || s.pulls_depth)
       s.by_landmarks = false;

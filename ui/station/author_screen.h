@@ -1,5 +1,5 @@
-// What the authoring view shows and takes in: zones, sizes and findings as panels around the tooth, with the points of the chosen outline and the
-// tooth's landmarks on it.
+// What the authoring view shows and takes in: zones, sizes and findings as panels around the tooth,
+// with the points of the chosen outline and the tooth's landmarks on it.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ namespace cavum::station {
 struct AuthorState {
   std::size_t zone = 0, point = 0, number = 0;
   bool pulls_point = false, pulls_depth = false;  ///< by the mouse
-  bool by_landmarks = false;                      ///< keys and panel are those of landmarks, not of zones
+  bool by_landmarks = false;  ///< keys and panel are those of landmarks, not of zones
   bool landmarks_shown = true;
   std::size_t landmark = 0;
   bool pulls_landmark = false;  ///< by the mouse
@@ -50,15 +50,18 @@ struct AuthorContext {
 /// The tooth with outlines, points and landmarks over it, and what mouse and arrows do there.
 void author_picture(const AuthorContext& c, ImVec2 at, ImVec2 size);
 
-/// A change by hand of the zone's point or number; what cannot be done becomes the message. `pull`: one of many while the mouse is held.
-void author_move_point(const AuthorContext& c, const AuthorZone& zone, std::size_t point, Vec3 to, bool pull);
+/// A change by hand of the zone's point or number; what cannot be done becomes the message. `pull`:
+/// one of many while the mouse is held.
+void author_move_point(const AuthorContext& c, const AuthorZone& zone, std::size_t point, Vec3 to,
+                       bool pull);
 void author_set_number(const AuthorContext& c, const AuthorNumber& number, double value, bool pull);
 
 /// Puts a landmark where a person wants it, or (no place) back where it was found.
-void author_move_landmark(const AuthorContext& c, const AuthorLandmark& landmark, const std::optional<Vec3>& to, bool pull);
+void author_move_landmark(const AuthorContext& c, const AuthorLandmark& landmark,
+                          const std::optional<Vec3>& to, bool pull);
 
-// Of landmarks, in author_landmark_picture.cpp: drawn over the picture, taken with the mouse (false: none is near), pulled, moved by arrows; and
-// their part of the panel.
+// Of landmarks, in author_landmark_picture.cpp: drawn over the picture, taken with the mouse
+// (false: none is near), pulled, moved by arrows; and their part of the panel.
 struct AuthorSight;
 void draw_landmarks(const AuthorContext& c, ImDrawList& draw, const AuthorSight& sight);
 bool take_landmark(const AuthorContext& c, const AuthorSight& sight, ImVec2 mouse);

@@ -1,4 +1,5 @@
-// How the authoring view draws over the picture of the tooth: pixels from places and lines of sight from pixels.
+// How the authoring view draws over the picture of the tooth: pixels from places and lines of sight
+// from pixels.
 #pragma once
 
 #include <imgui.h>
@@ -20,9 +21,11 @@ struct AuthorSight {
     const glm::vec4 c = to_picture * glm::vec4(p.x, p.y, p.z, 1);
     return {at.x + size.x * (0.5F + 0.5F * c.x / c.w), at.y + size.y * (0.5F - 0.5F * c.y / c.w)};
   }
-  /// From the eye through a pixel: a place near the eye, and the way from there to the farthest place, mm.
+  /// From the eye through a pixel: a place near the eye, and the way from there to the farthest
+  /// place, mm.
   [[nodiscard]] std::pair<Vec3, Vec3> through(ImVec2 pixel) const {
-    const float x = 2.0F * (pixel.x - at.x) / size.x - 1.0F, y = 1.0F - 2.0F * (pixel.y - at.y) / size.y;
+    const float x = 2.0F * (pixel.x - at.x) / size.x - 1.0F,
+                y = 1.0F - 2.0F * (pixel.y - at.y) / size.y;
     const glm::mat4 back = glm::inverse(to_picture);
     const glm::vec4 a = back * glm::vec4(x, y, -1, 1), b = back * glm::vec4(x, y, 1, 1);
     const Vec3 from{a.x / a.w, a.y / a.w, a.z / a.w};
@@ -49,6 +52,8 @@ inline void author_words(ImDrawList& draw, ImVec2 at, ImU32 colour, const char* 
   draw.AddText(at, colour, words);
 }
 
-[[nodiscard]] inline double pixels_apart(ImVec2 a, ImVec2 b) { return std::hypot(static_cast<double>(a.x - b.x), static_cast<double>(a.y - b.y)); }
+[[nodiscard]] inline double pixels_apart(ImVec2 a, ImVec2 b) {
+  return std::hypot(static_cast<double>(a.x - b.x), static_cast<double>(a.y - b.y));
+}
 
 }  // namespace cavum::station

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
-#include "engine/base/said_by.h"
+#include "engine/base/message_from.h"
 #include "engine/tooth/anatomy/placed.h"
 #include "engine/tooth/marching.h"
 #include "engine/tooth/surface_mesh.h"
@@ -17,9 +17,11 @@
 namespace cavum::station {
 namespace {
 
-/// Leaves `step` apart in a box (low, high exclusive) that `inside` says yes to, as a smooth surface.
+/// Leaves `step` apart in a box (low, high exclusive) that `inside` says yes to, as a smooth
+/// surface.
 template <class Inside>
-MeshData body_of(const Octree& tooth, IVec3 low, IVec3 high, int step, const std::array<std::uint8_t, 4>& colour, const Inside& inside) {
+MeshData body_of(const Octree& tooth, IVec3 low, IVec3 high, int step,
+                 const std::array<std::uint8_t, 4>& colour, const Inside& inside) {
   const IVec3 from = low - IVec3{step, step, step}, span = high - low;
   const IVec3 size{span.x / step + 4, span.y / step + 4, span.z / step + 4};
   std::vector<std::uint8_t> in;
@@ -31,7 +33,8 @@ MeshData body_of(const Octree& tooth, IVec3 low, IVec3 high, int step, const std
         const bool edge = rim(x, size.x) || rim(y, size.y) || rim(z, size.z);
         in.push_back(!edge && inside(from + IVec3{x * step, y * step, z * step}) ? 1 : 0);
       }
-  TriangleMesh mesh = march_tetrahedra(size, tooth.centre_mm(from), step * tooth.leaf_mm(), in, [](IVec3, IVec3) { return 0.5; });
+  TriangleMesh mesh = march_tetrahedra(size, tooth.centre_mm(from), step * tooth.leaf_mm(), in,
+                                       [](IVec3, IVec3) { return 0.5; });
   // steps of leaves are no walls: each corner goes to the middle of its neighbours, a few times
   constexpr int k_rounds = 4;
   for (int round = 0; round < k_rounds; ++round) {
@@ -51,7 +54,8 @@ MeshData body_of(const Octree& tooth, IVec3 low, IVec3 high, int step, const std
 bool counts_from_chamber(const scenarios::Scenario& s) {
   const auto does = [](const scenarios::ShapeSpec& shape) {
     const auto* outline = scenarios::field_of<scenarios::OutlineField>(shape);
-    return outline != nullptr && outline->seen == scenarios::OutlineSeen::from_occlusal && shape.outline.from_chamber;
+    return outline != nullptr && outline->seen == scenarios::OutlineSeen::from_occlusal &&
+           shape.outline.from_chamber;
   };
   return std::any_of(s.zones.target.begin(), s.zones.target.end(), does) ||
          std::any_of(s.zones.protected_shapes.begin(), s.zones.protected_shapes.end(), does);
@@ -59,17 +63,20 @@ bool counts_from_chamber(const scenarios::Scenario& s) {
 
 }  // namespace
 
-std::array<MeshData, k_author_layers> zone_bodies(const scenarios::ZoneMap& zones, const Octree& tooth) {
+std::array<MeshData, k_author_layers> zone_bodies(const scenarios::ZoneMap& zones,
+                                                  const Octree& tooth) {
   const auto colour = [](AuthorLayer layer, std::uint8_t opacity) -> std::array<std::uint8_t, 4> {
     const auto c = layer_colour(layer);
     return {c[0], c[1], c[2], opacity};
   };
   const IVec3 low = zones.low(), high = zones.low() + zones.size();
   std::array<MeshData, k_author_layers> bodies;
-  bodies[0] = body_of(tooth, low, high, 1, colour(AuthorLayer::target, 130), [&](IVec3 l) { return zones.zone(l) == scenarios::Zone::target; });
+  bodies[0] = body_of(tooth, low, high, 1, colour(AuthorLayer::target, 130),
+                      [&](IVec3 l) { return zones.zone(l) == scenarios::Zone::target; });
   bodies[1] = body_of(tooth, low, high, 2, colour(AuthorLayer::leeway, 80), [&](IVec3 l) {
     const scenarios::Zone z = zones.zone(l);
-    return z == scenarios::Zone::target || z == scenarios::Zone::leeway_sides || z == scenarios::Zone::leeway_bottom;
+    return z == scenarios::Zone::target || z == scenarios::Zone::leeway_sides ||
+           z == scenarios::Zone::leeway_bottom;
   });
   bodies[2] = body_of(tooth, low, high, 2, colour(AuthorLayer::container, 80), [&](IVec3 l) {
     const scenarios::Zone z = zones.zone(l);
@@ -113,11 +120,13 @@ void AuthorWorker::work(const std::stop_token& stop) {
   }
 }
 
-std::shared_ptr<const AuthorTooth> AuthorWorker::tooth_of(const scenarios::Scenario& scenario, std::uint64_t reading) {
+std::shared_ptr<const AuthorTooth> AuthorWorker::tooth_of(const scenarios::Scenario& scenario,
+                                                          std::uint64_t reading) {
   if (scenario.tooth_file.empty()) return nullptr;
   try {
     const std::string file = scenarios::find_tooth_file(scenario);
-    if (tooth_ == nullptr || tooth_->file != file || reading_ != reading) tooth_ = std::make_shared<const AuthorTooth>(read_author_tooth(file));
+    if (tooth_ == nullptr || tooth_->file != file || reading_ != reading)
+      tooth_ = std::make_shared<const AuthorTooth>(read_author_tooth(file));
     reading_ = reading;
     return tooth_;
   } catch (const Error&) {
@@ -140,7 +149,9 @@ void AuthorWorker::find(const AuthorTask& task) {
       tooth->placed_landmarks = task.landmarks;
     }
     if (tooth && counts_from_chamber(s))
-      f.chamber_mm = scenarios::tissue_relief(*tooth, "pulp", scenarios::TissuePart::chamber, Name{task.path}).middle_mm;
+      f.chamber_mm =
+          scenarios::tissue_relief(*tooth, "pulp", scenarios::TissuePart::chamber, Name{task.path})
+              .middle_mm;
     if (whole && tooth && scenarios::missing_tissues(s, *tooth).empty()) {
       Landmarks landmarks = f.tooth->found;
       place_landmarks(task.landmarks, landmarks);
@@ -156,11 +167,12 @@ void AuthorWorker::find(const AuthorTask& task) {
   }
   try {
     scenarios::CheckedScenario checked =
-        tooth ? scenarios::check_whole_on(*tooth, task.text, task.path) : scenarios::check_whole(task.text, task.path);
+        tooth ? scenarios::check_whole_on(*tooth, task.text, task.path)
+              : scenarios::check_whole(task.text, task.path);
     f.problems = std::move(checked.problems);
     f.expert_s = checked.expert.time_s;
   } catch (const std::exception& e) {
-    f.problems = {{{task.path}, said_by(e), msg("mend it in a text editor")}};
+    f.problems = {{{task.path}, message_from(e), msg("mend it in a text editor")}};
   }
   f.checked = true;
   publish(std::move(f));

@@ -1,5 +1,6 @@
-// Lays an author's zones into the tooth and checks the scenario, in a thread of its own: both take a second or more, and the window never waits.
-// Only the newest text counts; what came before it and has not begun is left out.
+// Lays an author's zones into the tooth and checks the scenario, in a thread of its own: both take
+// a second or more, and the window never waits. Only the newest text counts; what came before it
+// and has not begun is left out.
 #pragma once
 
 #include <condition_variable>
@@ -28,11 +29,13 @@ struct AuthorTask {
   std::vector<NamedPoint> landmarks;  ///< that a person put, in place of those in the tooth's file
 };
 
-/// What is known of one text and its landmarks. It comes twice: with the zones, and again when all is checked.
+/// What is known of one text and its landmarks. It comes twice: with the zones, and again when all
+/// is checked.
 struct AuthorFindings {
-  std::uint64_t version = 0;                   ///< of text and landmarks
-  std::shared_ptr<const AuthorTooth> tooth;    ///< null when the scenario's cannot be read
-  std::array<MeshData, k_author_layers> body;  ///< surfaces of the zones, by layer; all empty when there are none
+  std::uint64_t version = 0;                 ///< of text and landmarks
+  std::shared_ptr<const AuthorTooth> tooth;  ///< null when the scenario's cannot be read
+  std::array<MeshData, k_author_layers>
+      body;  ///< surfaces of the zones, by layer; all empty when there are none
   Vec3 target_low_mm, target_high_mm;
   double opening_z_mm = 0.0;
   Vec3 chamber_mm;  ///< middle of the pulp chamber, where the scenario counts from it
@@ -53,7 +56,8 @@ class AuthorWorker {
   void work(const std::stop_token& stop);
   void find(const AuthorTask& task);
   /// Null when the text names none that can be read.
-  [[nodiscard]] std::shared_ptr<const AuthorTooth> tooth_of(const scenarios::Scenario& scenario, std::uint64_t reading);
+  [[nodiscard]] std::shared_ptr<const AuthorTooth> tooth_of(const scenarios::Scenario& scenario,
+                                                            std::uint64_t reading);
   void publish(AuthorFindings findings);
 
   std::mutex mutex_;  // of what stands below it, down to the tooth
@@ -65,7 +69,9 @@ class AuthorWorker {
   std::jthread thread_;  // the last: it ends first
 };
 
-/// The surfaces of the zones for the screen, smoothed: what is to be removed, that with its leeway, that with its container, what is protected.
-[[nodiscard]] std::array<MeshData, k_author_layers> zone_bodies(const scenarios::ZoneMap& zones, const Octree& tooth);
+/// The surfaces of the zones for the screen, smoothed: what is to be removed, that with its leeway,
+/// that with its container, what is protected.
+[[nodiscard]] std::array<MeshData, k_author_layers> zone_bodies(const scenarios::ZoneMap& zones,
+                                                                const Octree& tooth);
 
 }  // namespace cavum::station

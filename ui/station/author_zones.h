@@ -1,5 +1,5 @@
-// What of a scenario's zones can be changed by hand: the points of outlines and the sizes of bodies, each with its place in the file, and where the
-// points lie on the tooth.
+// What of a scenario's zones can be changed by hand: the points of outlines and the sizes of
+// bodies, each with its place in the file, and where the points lie on the tooth.
 #pragma once
 
 #include <array>
@@ -40,10 +40,14 @@ struct AuthorZone {
   std::optional<double> depth_mm;  ///< of a column below the opening
   std::string depth_place;
 
-  [[nodiscard]] Vec3 in_tooth(Vec3 point) const noexcept { return frame.at + frame.x * point.x + frame.y * point.y; }
+  [[nodiscard]] Vec3 in_tooth(Vec3 point) const noexcept {
+    return frame.at + frame.x * point.x + frame.y * point.y;
+  }
 };
 
-/// `opening_z_mm`: level on which points are shown; `chamber_mm`: the chamber's middle, where outlines count from it.
-[[nodiscard]] std::vector<AuthorZone> author_zones(const scenarios::Scenario& scenario, double opening_z_mm, Vec3 chamber_mm);
+/// `opening_z_mm`: level on which points are shown; `chamber_mm`: the chamber's middle, where
+/// outlines count from it.
+[[nodiscard]] std::vector<AuthorZone> author_zones(const scenarios::Scenario& scenario,
+                                                   double opening_z_mm, Vec3 chamber_mm);
 
 }  // namespace cavum::station

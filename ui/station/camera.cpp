@@ -14,7 +14,9 @@ void Camera::orbit(float turn, float rise) {
   rise_deg = glm::clamp(rise_deg + rise, -60.0F, 90.0F);
 }
 
-void Camera::approach(float factor) { distance_mm = glm::clamp(distance_mm * factor, 8.0F, 120.0F); }
+void Camera::approach(float factor) {
+  distance_mm = glm::clamp(distance_mm * factor, 8.0F, 120.0F);
+}
 void Camera::look_from_occlusal() { look_from(0.0F, 90.0F); }
 void Camera::look_from(float turn, float rise) {
   turn_deg = turn;
@@ -29,15 +31,20 @@ glm::mat4 Camera::view(int eye) const {
   m = glm::rotate(m, glm::radians(roll_deg), glm::vec3(0, 0, 1));
   m = glm::translate(m, glm::vec3(0, 0, -distance_mm));
   // the eyes stand on a circle round what they look at
-  m = glm::rotate(m, -static_cast<float>(eye) * std::atan2(0.5F * eyes_apart_mm, distance_mm), glm::vec3(0, 1, 0));
+  m = glm::rotate(m, -static_cast<float>(eye) * std::atan2(0.5F * eyes_apart_mm, distance_mm),
+                  glm::vec3(0, 1, 0));
   m = glm::rotate(m, glm::radians(rise_deg - 90.0F), glm::vec3(1, 0, 0));
   m = glm::rotate(m, glm::radians(turn_deg + 180.0F), glm::vec3(0, 0, 1));
   return glm::translate(m, -target_mm);
 }
 
-glm::mat4 Camera::projection(float width_over_height) const { return glm::perspective(glm::radians(k_field_deg), width_over_height, 1.0F, 250.0F); }
+glm::mat4 Camera::projection(float width_over_height) const {
+  return glm::perspective(glm::radians(k_field_deg), width_over_height, 1.0F, 250.0F);
+}
 
-glm::vec3 Camera::position_mm(int eye) const { return glm::vec3(glm::inverse(view(eye)) * glm::vec4(0, 0, 0, 1)); }
+glm::vec3 Camera::position_mm(int eye) const {
+  return glm::vec3(glm::inverse(view(eye)) * glm::vec4(0, 0, 0, 1));
+}
 
 Vec3 Camera::right() const {
   const glm::mat4 m = view();

@@ -1,5 +1,5 @@
-// How one looks at the tooth: round it, nearer and farther, as in a mouth mirror, or with both eyes. Matrices for the screen only; nothing of them
-// reaches the physics.
+// How one looks at the tooth: round it, nearer and farther, as in a mouth mirror, or with both
+// eyes. Matrices for the screen only; nothing of them reaches the physics.
 #pragma once
 
 #include <glm/glm.hpp>

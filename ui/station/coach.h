@@ -5,7 +5,9 @@
 
 namespace cavum::station {
 
-/// One short sentence, or empty: pressing too hard, turning in the air for long, beside the target, near its floor, below it.
-[[nodiscard]] Message coaching_hint(const scenarios::ExamSetup& setup, const scenarios::LiveView& view);
+/// One short sentence, or empty: pressing too hard, turning in the air for long, beside the target,
+/// near its floor, below it.
+[[nodiscard]] Message coaching_hint(const scenarios::ExamSetup& setup,
+                                    const scenarios::LiveView& view);
 
 }  // namespace cavum::station

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
-#include "engine/base/said_by.h"
+#include "engine/base/message_from.h"
 
 namespace cavum::station {
 namespace {
@@ -20,7 +20,8 @@ CheckItem stylus_item(const DeviceSight& s) {
   if (!s.error.empty()) return {State::bad, title, s.error};
   if (!s.read_once) return {State::waiting, title, msg("waiting for its first word")};
   if (s.rate_hz < DeviceCheck::k_min_share * s.usual_rate_hz)
-    return {State::waiting, title, msg("speaks too seldom: {} times a second", as_number(s.rate_hz, 0))};
+    return {State::waiting, title,
+            msg("speaks too seldom: {} times a second", as_number(s.rate_hz, 0))};
   return {State::good, title, msg("speaks {} times a second", as_number(s.rate_hz, 0))};
 }
 
@@ -31,16 +32,19 @@ CheckItem pedal_item(const DeviceSight& s) {
   if (!s.pedal_known) return {State::waiting, title, msg("not heard of yet: move it once")};
   if (s.pedal_came_back) return {State::good, title, msg("reaches both ends")};
   if (!s.pedal_released) return {State::waiting, title, msg("take the foot off it ({})", pressed)};
-  if (!s.pedal_pressed) return {State::waiting, title, msg("press it down all the way ({})", pressed)};
+  if (!s.pedal_pressed)
+    return {State::waiting, title, msg("press it down all the way ({})", pressed)};
   return {State::waiting, title, msg("release it ({})", pressed)};
 }
 
 CheckItem rest_item(const DeviceSight& s) {
   using State = CheckItem::State;
   const Message title = msg("Finger rest");
-  if (!s.read_once || s.wander_mm > 100) return {State::waiting, title, msg("lay the fingers on the rest and hold the stylus still")};
+  if (!s.read_once || s.wander_mm > 100)
+    return {State::waiting, title, msg("lay the fingers on the rest and hold the stylus still")};
   if (s.wander_mm > DeviceCheck::k_max_wander_mm)
-    return {State::waiting, title, msg("the tip wanders by {}: lay the fingers on the rest", as_mm(s.wander_mm, 1))};
+    return {State::waiting, title,
+            msg("the tip wanders by {}: lay the fingers on the rest", as_mm(s.wander_mm, 1))};
   return {State::good, title, msg("in place, the tip is still within {}", as_mm(s.wander_mm))};
 }
 
@@ -77,19 +81,24 @@ struct LastSecond {
     const Vec3 mean = sum / static_cast<double>(n);
     sight.wander_mm = 0.0;
     for (std::size_t i = 0; i < tips.size(); ++i)
-      if (now - times[i] <= std::chrono::seconds(1)) sight.wander_mm = std::max(sight.wander_mm, length(tips[i] - mean));
+      if (now - times[i] <= std::chrono::seconds(1))
+        sight.wander_mm = std::max(sight.wander_mm, length(tips[i] - mean));
   }
 };
 
 }  // namespace
 
-std::array<CheckItem, 3> check_items(const DeviceSight& sight) { return {stylus_item(sight), pedal_item(sight), rest_item(sight)}; }
-
-bool all_good(const std::array<CheckItem, 3>& items) {
-  return std::all_of(items.begin(), items.end(), [](const CheckItem& i) { return i.state == CheckItem::State::good; });
+std::array<CheckItem, 3> check_items(const DeviceSight& sight) {
+  return {stylus_item(sight), pedal_item(sight), rest_item(sight)};
 }
 
-DeviceCheck::DeviceCheck(ServoDevice& device, double usual_rate_hz) : device_(device), usual_rate_hz_(usual_rate_hz), thread_([this] { run(); }) {}
+bool all_good(const std::array<CheckItem, 3>& items) {
+  return std::all_of(items.begin(), items.end(),
+                     [](const CheckItem& i) { return i.state == CheckItem::State::good; });
+}
+
+DeviceCheck::DeviceCheck(ServoDevice& device, double usual_rate_hz)
+    : device_(device), usual_rate_hz_(usual_rate_hz), thread_([this] { run(); }) {}
 
 DeviceCheck::~DeviceCheck() {
   stop_.store(true, std::memory_order_release);
@@ -108,7 +117,8 @@ void DeviceCheck::run() noexcept {
   auto due = Clock::now();
   auto before = due;
   for (int i = 0; !stop_.load(std::memory_order_acquire); ++i) {
-    due = std::max(due + std::chrono::milliseconds(1), Clock::now() - std::chrono::milliseconds(20));
+    due =
+        std::max(due + std::chrono::milliseconds(1), Clock::now() - std::chrono::milliseconds(20));
     std::this_thread::sleep_until(due);
     const auto now = Clock::now();
     try {
@@ -129,7 +139,7 @@ void DeviceCheck::run() noexcept {
       }
       seen.button = (r.flags & (k_button_1 | k_button_2)) != 0;
     } catch (const std::exception& e) {
-      seen.error = said_by(e);
+      seen.error = message_from(e);
       stop_.store(true, std::memory_order_release);
     }
     before = now;

@@ -1,5 +1,6 @@
-// Before an exam: does the stylus speak, does the pedal reach both ends, does the hand rest on its finger rest? The device is read as the servo
-// will read it, in a thread of its own and without any force; the screen shows what was found.
+// Before an exam: does the stylus speak, does the pedal reach both ends, does the hand rest on its
+// finger rest? The device is read as the servo will read it, in a thread of its own and without any
+// force; the screen shows what was found.
 #pragma once
 
 #include <array>
@@ -45,7 +46,8 @@ class DeviceCheck {
   static constexpr double k_min_share = 0.4;      ///< of the usual rate
   static constexpr double k_max_wander_mm = 0.6;  ///< of a hand on its finger rest
 
-  /// `usual_rate_hz`: at which the device speaks when all is well. Reads from now on; the device must outlive it and be read by nobody else.
+  /// `usual_rate_hz`: at which the device speaks when all is well. Reads from now on; the device
+  /// must outlive it and be read by nobody else.
   explicit DeviceCheck(ServoDevice& device, double usual_rate_hz = 1000.0);
   /// Stops reading.
   ~DeviceCheck();

@@ -20,12 +20,16 @@ void sign(const Theme& t, CheckItem::State state) {
   const float r = size * 0.5F, w = t.px(3);
   if (state == CheckItem::State::good) {
     draw.AddCircleFilled(middle, r, ink(t.good));
-    draw.AddLine({middle.x - r * 0.45F, middle.y}, {middle.x - r * 0.1F, middle.y + r * 0.4F}, ink(t.on_accent), w);
-    draw.AddLine({middle.x - r * 0.1F, middle.y + r * 0.4F}, {middle.x + r * 0.5F, middle.y - r * 0.4F}, ink(t.on_accent), w);
+    draw.AddLine({middle.x - r * 0.45F, middle.y}, {middle.x - r * 0.1F, middle.y + r * 0.4F},
+                 ink(t.on_accent), w);
+    draw.AddLine({middle.x - r * 0.1F, middle.y + r * 0.4F},
+                 {middle.x + r * 0.5F, middle.y - r * 0.4F}, ink(t.on_accent), w);
   } else if (state == CheckItem::State::bad) {
     draw.AddCircleFilled(middle, r, ink(t.bad));
-    draw.AddLine({middle.x - r * 0.4F, middle.y - r * 0.4F}, {middle.x + r * 0.4F, middle.y + r * 0.4F}, ink(t.on_accent), w);
-    draw.AddLine({middle.x - r * 0.4F, middle.y + r * 0.4F}, {middle.x + r * 0.4F, middle.y - r * 0.4F}, ink(t.on_accent), w);
+    draw.AddLine({middle.x - r * 0.4F, middle.y - r * 0.4F},
+                 {middle.x + r * 0.4F, middle.y + r * 0.4F}, ink(t.on_accent), w);
+    draw.AddLine({middle.x - r * 0.4F, middle.y + r * 0.4F},
+                 {middle.x + r * 0.4F, middle.y - r * 0.4F}, ink(t.on_accent), w);
   } else {
     draw.AddCircle(middle, r - 1, ink(t.quiet), 24, w * 0.7F);
   }
@@ -58,7 +62,10 @@ void device_check_screen(const ScreenContext& c) {
     PointerIntent still;
     still.tip_mm = s.wanted_mm;
     still.rotation = s.wanted_rotation;
-    still.pedal = key_held(GLFW_KEY_SPACE) || (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !ImGui::IsAnyItemHovered()) ? 1.0 : 0.0;
+    still.pedal = key_held(GLFW_KEY_SPACE) ||
+                          (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !ImGui::IsAnyItemHovered())
+                      ? 1.0
+                      : 0.0;
     pointer->want(still);
     quiet_text(t, msg("Mouse and keyboard: the pedal is the space bar or the left button."));
   }
@@ -76,7 +83,8 @@ void device_check_screen(const ScreenContext& c) {
   ImGui::Dummy({0, t.px(6)});
   text_line(msg("Pedal"));
   ImGui::SameLine(t.px(110));
-  ImGui::ProgressBar(sight.pedal_known ? static_cast<float>(sight.pedal) : 0.0F, {-1, t.px(16)}, "");
+  ImGui::ProgressBar(sight.pedal_known ? static_cast<float>(sight.pedal) : 0.0F, {-1, t.px(16)},
+                     "");
   ImGui::Dummy({0, t.px(10)});
   if (main_button(t, continue_label(), all_good(items))) s.wish = Wish::to_briefing;
   if (!s.message.empty()) quiet_text(t, s.message);

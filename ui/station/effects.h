@@ -1,5 +1,6 @@
-// How much a picture may cost: levels of effects, and which of them the computer keeps up with. Level 0 is the richest; a picture that takes too long
-// puts it down a level, time to spare puts it up again after a while.
+// How much a picture may cost: levels of effects, and which of them the computer keeps up with.
+// Level 0 is the richest; a picture that takes too long puts it down a level, time to spare puts it
+// up again after a while.
 #pragma once
 
 #include <array>

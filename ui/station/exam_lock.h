@@ -1,5 +1,5 @@
-// What a locked exam watches: each try to leave it becomes an attempt, which the session records and the screen shows. Nothing here ends or hides an
-// exam.
+// What a locked exam watches: each try to leave it becomes an attempt, which the session records
+// and the screen shows. Nothing here ends or hides an exam.
 #pragma once
 
 #include <chrono>
@@ -17,14 +17,17 @@ namespace cavum::station {
 
 class ExamLock {
  public:
-  /// `code_hash`: of the supervisor's code, with which the station can be left; empty: not locked, what is tried is watched all the same.
+  /// `code_hash`: of the supervisor's code, with which the station can be left; empty: not locked,
+  /// what is tried is watched all the same.
   explicit ExamLock(std::string code_hash);
   [[nodiscard]] bool locked() const noexcept { return !hash_.empty(); }
   /// In every picture: what was tried since the one before.
   [[nodiscard]] std::vector<LockAttempt> look(const InputQueue& input);
   /// Whether another window has the keyboard.
   [[nodiscard]] bool away() const noexcept { return away_; }
-  [[nodiscard]] bool opens(const std::string& code) const { return locked() && is_supervisor_code(hash_, code); }
+  [[nodiscard]] bool opens(const std::string& code) const {
+    return locked() && is_supervisor_code(hash_, code);
+  }
 
  private:
   using Clock = std::chrono::steady_clock;

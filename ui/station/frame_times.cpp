@@ -42,7 +42,8 @@ struct Beside {
   const char* name;
   bool ring, spray;
 };
-constexpr std::array<Beside, 3> k_beside{{{"neither", false, false}, {"ring", true, false}, {"ring, spray", true, true}}};
+constexpr std::array<Beside, 3> k_beside{
+    {{"neither", false, false}, {"ring", true, false}, {"ring, spray", true, true}}};
 
 /// What pictures of one kind took.
 struct Took {
@@ -50,7 +51,8 @@ struct Took {
   DrawCount most;
 };
 
-/// A tooth whose target's box is cut away, and that is cut on at its walls, a twentieth of a cubic millimetre a picture.
+/// A tooth whose target's box is cut away, and that is cut on at its walls, a twentieth of a cubic
+/// millimetre a picture.
 class Opened {
  public:
   Opened(const Octree& tooth, const scenarios::ZoneMap& zones)
@@ -70,8 +72,10 @@ class Opened {
     ++steps_;
     const double turn = k_turn_rad * steps_, wider = k_outwards_mm * steps_;
     const double down = std::fmod(k_down_mm * steps_, half_.z);
-    const Vec3 at = middle_ + Vec3{(half_.x + wider) * std::cos(turn), (half_.y + wider) * std::sin(turn), -down};
-    cut(at, {k_head_mm + 0.2, k_head_mm + 0.2, k_head_mm + 0.2}, [at](Vec3 mm) { return length(mm - at) - k_head_mm; });
+    const Vec3 at = middle_ + Vec3{(half_.x + wider) * std::cos(turn),
+                                   (half_.y + wider) * std::sin(turn), -down};
+    cut(at, {k_head_mm + 0.2, k_head_mm + 0.2, k_head_mm + 0.2},
+        [at](Vec3 mm) { return length(mm - at) - k_head_mm; });
   }
 
  private:
@@ -88,12 +92,15 @@ class Opened {
 /// Draws rows of the table.
 class Bench {
  public:
-  Bench(Scene& scene, int width, int height, int frames) : scene_(scene), width_(width), height_(height), frames_(frames) {
+  Bench(Scene& scene, int width, int height, int frames)
+      : scene_(scene), width_(width), height_(height), frames_(frames) {
     view_.bur = 0;
     view_.tool.tip_mm = {0, 0, 3};
   }
-  /// What is compared is drawn by turns: other programs hold up all of it alike. `cut` comes before each picture.
-  void draw(const std::string& level, const char* name, bool turning, std::span<const Beside> besides, const auto& cut) {
+  /// What is compared is drawn by turns: other programs hold up all of it alike. `cut` comes before
+  /// each picture.
+  void draw(const std::string& level, const char* name, bool turning,
+            std::span<const Beside> besides, const auto& cut) {
     std::vector<Took> took(besides.size());
     for (int i = 0; i < frames_; ++i)
       for (std::size_t b = 0; b < besides.size(); ++b) {
@@ -111,8 +118,10 @@ class Bench {
       auto& [ms, processor_ms, most] = took[b];
       std::sort(ms.begin(), ms.end());
       std::sort(processor_ms.begin(), processor_ms.end());
-      std::printf("%-9s %-14s %-12s %8.1f %6.1f %6.1f %17.1f %6d %10d\n", level.c_str(), name, besides[b].name, quantile_of_sorted(ms, 0.5),
-                  ms.front(), quantile_of_sorted(ms, 0.95), quantile_of_sorted(processor_ms, 0.5), most.draws, most.triangles);
+      std::printf("%-9s %-14s %-12s %8.1f %6.1f %6.1f %17.1f %6d %10d\n", level.c_str(), name,
+                  besides[b].name, quantile_of_sorted(ms, 0.5), ms.front(),
+                  quantile_of_sorted(ms, 0.95), quantile_of_sorted(processor_ms, 0.5), most.draws,
+                  most.triangles);
       std::fflush(stdout);
     }
   }
@@ -146,10 +155,13 @@ void print_frame_times(const StationOptions& options, int frames) {
   const double processor_before_s = processor_s();
   Scene scene(setup->tooth.octree, setup->tooth.tissues, setup->burs, nullptr);
   const double made_s = seconds_since(began), made_processor_s = processor_s() - processor_before_s;
-  std::printf("%s, %d x %d: %zu triangles, %zu of them kept for drawing; first mesh %.2f s (processor %.2f s)\n", renderer_name().c_str(),
-              options.width, options.height, scene.tooth().triangles(), scene.tooth().triangles_kept(), made_s, made_processor_s);
+  std::printf(
+      "%s, %d x %d: %zu triangles, %zu of them kept for drawing; first mesh %.2f s (processor %.2f s)\n",
+      renderer_name().c_str(), options.width, options.height, scene.tooth().triangles(),
+      scene.tooth().triangles_kept(), made_s, made_processor_s);
   std::printf("load of the computer: %s\n", load_text().c_str());
-  std::printf("effects   picture        beside     ms: median  least   95 %%  of the processor  draws  triangles\n");
+  std::printf(
+      "effects   picture        beside     ms: median  least   95 %%  of the processor  draws  triangles\n");
   Bench bench{scene, options.width, options.height, frames};
   const auto at_each_level = [&](const auto& rows) {
     for (std::size_t level = 0; level < k_effects.size(); ++level) {
@@ -167,7 +179,8 @@ void print_frame_times(const StationOptions& options, int frames) {
   Opened opened(setup->tooth.octree, setup->zones);
   scene.tooth().take(opened.tooth());
   scene.tooth().update();
-  std::printf("the target's box cut away: %zu triangles kept for drawing\n", scene.tooth().triangles_kept());
+  std::printf("the target's box cut away: %zu triangles kept for drawing\n",
+              scene.tooth().triangles_kept());
   const auto ring_and_spray = std::span(k_beside).last(1);
   at_each_level([&](const std::string& level) {
     bench.draw(level, "opened, turns", true, ring_and_spray, [] {});
@@ -176,7 +189,8 @@ void print_frame_times(const StationOptions& options, int frames) {
       scene.tooth().take(opened.tooth());
     });
   });
-  std::printf("it settled at effects %zu; load of the computer: %s\n", scene.effects_level(), load_text().c_str());
+  std::printf("it settled at effects %zu; load of the computer: %s\n", scene.effects_level(),
+              load_text().c_str());
 }
 
 }  // namespace cavum::station

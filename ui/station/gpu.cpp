@@ -24,7 +24,8 @@ unsigned compile(unsigned kind, const char* source) {
     std::array<char, 1000> words{};
     glGetShaderInfoLog(shader, static_cast<int>(words.size()), nullptr, words.data());
     glDeleteShader(shader);
-    throw Error(msg("window"), msg("the graphics driver refuses a shader ({})", words.data()), msg("update the driver"));
+    throw Error(msg("window"), msg("the graphics driver refuses a shader ({})", words.data()),
+                msg("update the driver"));
   }
   return shader;
 }
@@ -38,15 +39,20 @@ std::string renderer_name() {
 
 bool drawn_by_processor() {
   const std::string name = renderer_name();
-  return name.find("llvmpipe") != std::string::npos || name.find("softpipe") != std::string::npos || name.find("swrast") != std::string::npos;
+  return name.find("llvmpipe") != std::string::npos || name.find("softpipe") != std::string::npos ||
+         name.find("swrast") != std::string::npos;
 }
 
-GpuVertex gpu_vertex(const glm::vec3& at_mm, const glm::vec3& normal, const std::array<std::uint8_t, 4>& colour) {
-  const auto part = [](float v) { return static_cast<std::int8_t>(std::lround(glm::clamp(v, -1.0F, 1.0F) * 127.0F)); };
+GpuVertex gpu_vertex(const glm::vec3& at_mm, const glm::vec3& normal,
+                     const std::array<std::uint8_t, 4>& colour) {
+  const auto part = [](float v) {
+    return static_cast<std::int8_t>(std::lround(glm::clamp(v, -1.0F, 1.0F) * 127.0F));
+  };
   return {{at_mm.x, at_mm.y, at_mm.z}, {part(normal.x), part(normal.y), part(normal.z), 0}, colour};
 }
 
-ShaderProgram::ShaderProgram(const std::string& vertex, const std::string& fragment, const std::string& defines) {
+ShaderProgram::ShaderProgram(const std::string& vertex, const std::string& fragment,
+                             const std::string& defines) {
   std::string head = "#version 330 core\n";
   for (std::size_t at = 0; at < defines.size();) {
     const std::size_t end = std::min(defines.find(' ', at), defines.size());
@@ -55,7 +61,8 @@ ShaderProgram::ShaderProgram(const std::string& vertex, const std::string& fragm
     head += "#define " + word + "\n";
     at = end + 1;
   }
-  const unsigned v = compile(GL_VERTEX_SHADER, (head + vertex).c_str()), f = compile(GL_FRAGMENT_SHADER, (head + fragment).c_str());
+  const unsigned v = compile(GL_VERTEX_SHADER, (head + vertex).c_str()),
+                 f = compile(GL_FRAGMENT_SHADER, (head + fragment).c_str());
   program_ = glCreateProgram();
   glAttachShader(program_, v);
   glAttachShader(program_, f);
@@ -64,7 +71,9 @@ ShaderProgram::ShaderProgram(const std::string& vertex, const std::string& fragm
   glDeleteShader(f);
   int ok = 0;
   glGetProgramiv(program_, GL_LINK_STATUS, &ok);
-  if (ok == 0) throw Error(msg("window"), msg("the graphics driver cannot link a shader"), msg("update the driver"));
+  if (ok == 0)
+    throw Error(msg("window"), msg("the graphics driver cannot link a shader"),
+                msg("update the driver"));
 }
 
 ShaderProgram::~ShaderProgram() { glDeleteProgram(program_); }
@@ -90,10 +99,13 @@ void ShaderProgram::set_texture(const char* name, int unit, unsigned kind, unsig
   glActiveTexture(GL_TEXTURE0);
   glUniform1i(glGetUniformLocation(program_, name), unit);
 }
-void ShaderProgram::set(const char* name, float value) const { glUniform1f(glGetUniformLocation(program_, name), value); }
+void ShaderProgram::set(const char* name, float value) const {
+  glUniform1f(glGetUniformLocation(program_, name), value);
+}
 
 void ShaderProgram::set(const char* name, std::span<const glm::vec3> values) const {
-  glUniform3fv(glGetUniformLocation(program_, name), static_cast<int>(values.size()), glm::value_ptr(values.front()));
+  glUniform3fv(glGetUniformLocation(program_, name), static_cast<int>(values.size()),
+               glm::value_ptr(values.front()));
 }
 
 GpuMesh::~GpuMesh() {
@@ -146,11 +158,14 @@ void GpuMesh::put(std::span<const GpuVertex> vertices, std::span<const std::uint
   upload(GL_ARRAY_BUFFER, vertices_, vertices);
   upload(GL_ELEMENT_ARRAY_BUFFER, indices_, indices);
   glEnableVertexAttribArray(0);
-  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(GpuVertex), place(offsetof(GpuVertex, at_mm)));
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(GpuVertex),
+                        place(offsetof(GpuVertex, at_mm)));
   glEnableVertexAttribArray(1);
-  glVertexAttribPointer(1, 3, GL_BYTE, GL_TRUE, sizeof(GpuVertex), place(offsetof(GpuVertex, normal)));
+  glVertexAttribPointer(1, 3, GL_BYTE, GL_TRUE, sizeof(GpuVertex),
+                        place(offsetof(GpuVertex, normal)));
   glEnableVertexAttribArray(2);
-  glVertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(GpuVertex), place(offsetof(GpuVertex, colour)));
+  glVertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(GpuVertex),
+                        place(offsetof(GpuVertex, colour)));
   glBindVertexArray(0);
   count_ = static_cast<int>(indices.size());
 }
@@ -162,13 +177,17 @@ void GpuMesh::put(std::span<const ToothVertex> vertices, std::span<const std::ui
   upload(GL_ARRAY_BUFFER, vertices_, vertices);
   upload(GL_ELEMENT_ARRAY_BUFFER, indices_, indices);
   glEnableVertexAttribArray(0);
-  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(ToothVertex), place(offsetof(ToothVertex, at_mm)));
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(ToothVertex),
+                        place(offsetof(ToothVertex, at_mm)));
   glEnableVertexAttribArray(1);
-  glVertexAttribPointer(1, 3, GL_SHORT, GL_TRUE, sizeof(ToothVertex), place(offsetof(ToothVertex, normal)));
+  glVertexAttribPointer(1, 3, GL_SHORT, GL_TRUE, sizeof(ToothVertex),
+                        place(offsetof(ToothVertex, normal)));
   glEnableVertexAttribArray(2);
-  glVertexAttribPointer(2, 2, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(ToothVertex), place(offsetof(ToothVertex, open)));
+  glVertexAttribPointer(2, 2, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(ToothVertex),
+                        place(offsetof(ToothVertex, open)));
   glEnableVertexAttribArray(3);
-  glVertexAttribPointer(3, 4, GL_UNSIGNED_BYTE, GL_FALSE, sizeof(ToothVertex), place(offsetof(ToothVertex, tissue)));
+  glVertexAttribPointer(3, 4, GL_UNSIGNED_BYTE, GL_FALSE, sizeof(ToothVertex),
+                        place(offsetof(ToothVertex, tissue)));
   glBindVertexArray(0);
 }
 
@@ -195,9 +214,11 @@ void GpuDrops::put(std::span<const GpuDrop> drops) {
   glBindVertexArray(array_);
   upload(GL_ARRAY_BUFFER, vertices_, drops);
   glEnableVertexAttribArray(0);
-  glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(GpuDrop), place(offsetof(GpuDrop, at_mm)));  // and size_mm behind it
+  glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(GpuDrop),
+                        place(offsetof(GpuDrop, at_mm)));  // and size_mm behind it
   glEnableVertexAttribArray(1);
-  glVertexAttribPointer(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(GpuDrop), place(offsetof(GpuDrop, colour)));
+  glVertexAttribPointer(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(GpuDrop),
+                        place(offsetof(GpuDrop, colour)));
   glBindVertexArray(0);
   count_ = static_cast<int>(drops.size());
 }
@@ -235,7 +256,8 @@ void sample_linearly(unsigned wrap) {
 void Table2D::put(int width, int height, int channels, std::span<const float> values) {
   if (texture_ == 0) glGenTextures(1, &texture_);
   glBindTexture(GL_TEXTURE_2D, texture_);
-  glTexImage2D(GL_TEXTURE_2D, 0, channels == 1 ? GL_R32F : GL_RGB16F, width, height, 0, channels == 1 ? GL_RED : GL_RGB, GL_FLOAT, values.data());
+  glTexImage2D(GL_TEXTURE_2D, 0, channels == 1 ? GL_R32F : GL_RGB16F, width, height, 0,
+               channels == 1 ? GL_RED : GL_RGB, GL_FLOAT, values.data());
   sample_linearly(GL_CLAMP_TO_EDGE);
 }
 
@@ -255,7 +277,8 @@ bool DepthMap::resize(int edge) {
   glGenFramebuffers(1, &frame_);
   glGenTextures(1, &texture_);
   glBindTexture(GL_TEXTURE_2D, texture_);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, edge, edge, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, nullptr);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, edge, edge, 0, GL_DEPTH_COMPONENT,
+               GL_UNSIGNED_INT, nullptr);
   sample_linearly(GL_CLAMP_TO_BORDER);
   constexpr std::array<float, 4> k_lit{1, 1, 1, 1};
   glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, k_lit.data());
@@ -267,7 +290,9 @@ bool DepthMap::resize(int edge) {
   glReadBuffer(GL_NONE);
   const bool whole = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  if (!whole) throw Error(msg("window"), msg("the graphics driver has no room for a shadow"), msg("update the driver"));
+  if (!whole)
+    throw Error(msg("window"), msg("the graphics driver has no room for a shadow"),
+                msg("update the driver"));
   return true;
 }
 
@@ -351,7 +376,9 @@ void RenderTarget::resize(int width, int height, int samples) {
   glBindFramebuffer(GL_FRAMEBUFFER, frame_);
   whole = whole && glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  if (!whole) throw Error(msg("window"), msg("the graphics driver has no room for a picture of this size"), msg("make the window smaller"));
+  if (!whole)
+    throw Error(msg("window"), msg("the graphics driver has no room for a picture of this size"),
+                msg("make the window smaller"));
 }
 
 void RenderTarget::begin(const glm::vec3& background) const {
@@ -365,7 +392,8 @@ void RenderTarget::end() const {
   if (shown_frame_ != 0) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, shown_frame_);
-    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
   }
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }

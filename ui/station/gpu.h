@@ -1,5 +1,6 @@
-// The few things of OpenGL that the station draws with: shader programs, triangle meshes, and pictures to draw into. Each owns what it made and
-// gives it back; all belong to the window's thread.
+// The few things of OpenGL that the station draws with: shader programs, triangle meshes, and
+// pictures to draw into. Each owns what it made and gives it back; all belong to the window's
+// thread.
 #pragma once
 
 #include <array>
@@ -21,7 +22,8 @@ struct GpuVertex {
   std::array<std::int8_t, 4> normal{};
   std::array<std::uint8_t, 4> colour{};
 };
-[[nodiscard]] GpuVertex gpu_vertex(const glm::vec3& at_mm, const glm::vec3& normal, const std::array<std::uint8_t, 4>& colour);
+[[nodiscard]] GpuVertex gpu_vertex(const glm::vec3& at_mm, const glm::vec3& normal,
+                                   const std::array<std::uint8_t, 4>& colour);
 
 /// A corner of the tooth's surface, 24 bytes.
 struct ToothVertex {
@@ -29,7 +31,8 @@ struct ToothVertex {
   std::array<std::int16_t, 3> normal{};  ///< in 1/32767
   std::uint8_t open = 255;               ///< how much of the light around reaches it, of 255
   std::uint8_t dentin_below = 0;         ///< share of dentin a millimetre below it, of 255
-  std::array<std::uint8_t, 4> tissue{};  ///< the two tissues it is of, the second one's share of 255; share of pulp beside it, of 255
+  std::array<std::uint8_t, 4> tissue{};  ///< the two tissues it is of, the second one's share of
+                                         ///< 255; share of pulp beside it, of 255
   friend bool operator==(const ToothVertex&, const ToothVertex&) = default;
 };
 
@@ -48,7 +51,8 @@ struct DrawCount {
 class ShaderProgram {
  public:
   /// `defines`: names set before both sources, "A B=2". Throws Error with the compiler's words.
-  ShaderProgram(const std::string& vertex, const std::string& fragment, const std::string& defines = "");
+  ShaderProgram(const std::string& vertex, const std::string& fragment,
+                const std::string& defines = "");
   ~ShaderProgram();
   ShaderProgram(const ShaderProgram&) = delete;
   ShaderProgram& operator=(const ShaderProgram&) = delete;

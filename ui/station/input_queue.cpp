@@ -18,21 +18,26 @@ void InputQueue::push_key(const InputEvent& event, int modifiers) {
   struct Modifier {
     int bit, left, right;
   };
-  static constexpr std::array<Modifier, 4> k_modifiers{{{GLFW_MOD_SHIFT, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT},
-                                                        {GLFW_MOD_CONTROL, GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL},
-                                                        {GLFW_MOD_ALT, GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT},
-                                                        {GLFW_MOD_SUPER, GLFW_KEY_LEFT_SUPER, GLFW_KEY_RIGHT_SUPER}}};
-  const bool itself = event.code >= GLFW_KEY_LEFT_SHIFT && event.code <= GLFW_KEY_RIGHT_SUPER;  // what is held then is said in different ways
+  static constexpr std::array<Modifier, 4> k_modifiers{
+      {{GLFW_MOD_SHIFT, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT},
+       {GLFW_MOD_CONTROL, GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL},
+       {GLFW_MOD_ALT, GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT},
+       {GLFW_MOD_SUPER, GLFW_KEY_LEFT_SUPER, GLFW_KEY_RIGHT_SUPER}}};
+  const bool itself =
+      event.code >= GLFW_KEY_LEFT_SHIFT &&
+      event.code <= GLFW_KEY_RIGHT_SUPER;  // what is held then is said in different ways
   for (const Modifier& m : k_modifiers)
     if (!itself && (modifiers & m.bit) == 0)
-      for (const int key : {m.left, m.right}) push({.kind = InputEvent::Kind::key, .code = key, .t_s = event.t_s});
+      for (const int key : {m.left, m.right})
+        push({.kind = InputEvent::Kind::key, .code = key, .t_s = event.t_s});
   push(event);
 }
 
 InputQueue::Key* InputQueue::changed_by(const InputEvent& event) noexcept {
   Key* key = nullptr;
   if (event.kind == InputEvent::Kind::key && known(event.code)) key = &keys_[index(event.code)];
-  if (event.kind == InputEvent::Kind::button && event.code >= 0 && event.code < k_buttons) key = &buttons_[index(event.code)];
+  if (event.kind == InputEvent::Kind::button && event.code >= 0 && event.code < k_buttons)
+    key = &buttons_[index(event.code)];
   return key != nullptr && key->down != event.down ? key : nullptr;
 }
 
@@ -54,7 +59,9 @@ const std::vector<InputEvent>& InputQueue::play(double now_s) {
       break;
     }
     until_s_ = event.t_s;
-    if (key == nullptr && (event.kind == InputEvent::Kind::key || event.kind == InputEvent::Kind::button)) continue;
+    if (key == nullptr &&
+        (event.kind == InputEvent::Kind::key || event.kind == InputEvent::Kind::button))
+      continue;
     if (key != nullptr) {
       key->changed = true;
       key->down = event.down;

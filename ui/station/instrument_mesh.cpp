@@ -16,8 +16,8 @@ struct Ring {
 
 constexpr int k_sides = 36, k_bands = 6;
 constexpr float k_two_pi = 2.0F * std::numbers::pi_v<float>;
-constexpr std::array<std::uint8_t, 4> k_diamond{172, 172, 176, 60}, k_steel{196, 202, 208, 255}, k_metal{205, 210, 216, 255},
-    k_dark{96, 104, 114, 200};
+constexpr std::array<std::uint8_t, 4> k_diamond{172, 172, 176, 60}, k_steel{196, 202, 208, 255},
+    k_metal{205, 210, 216, 255}, k_dark{96, 104, 114, 200};
 
 /// Small number in place of a random one, the same every time.
 int grain_of(unsigned i) {
@@ -37,22 +37,28 @@ GpuVertex corner_of(const Ring& ring, int side, unsigned number, const glm::mat4
     const float phase = k_bands * a + k_pitch_per_mm * k_two_pi * ring.z;
     lean = k_lean * std::cos(phase);
     const int lighter = grain_of(number) + static_cast<int>(k_contrast * std::sin(phase));
-    for (std::size_t c = 0; c < 3; ++c) colour[c] = static_cast<std::uint8_t>(glm::clamp(colour[c] + lighter, 0, 255));
+    for (std::size_t c = 0; c < 3; ++c)
+      colour[c] = static_cast<std::uint8_t>(glm::clamp(colour[c] + lighter, 0, 255));
   }
   const glm::vec3 out(std::cos(a), std::sin(a), 0), on(-std::sin(a), std::cos(a), 0);
-  const glm::vec3 n = glm::normalize(ring.normal_r * out + lean * std::fabs(ring.normal_r) * on + glm::vec3(0, 0, ring.normal_z + 1e-6F));
-  return gpu_vertex(glm::vec3(place * glm::vec4(ring.r * out + glm::vec3(0, 0, ring.z), 1.0F)), glm::vec3(place * glm::vec4(n, 0.0F)), colour);
+  const glm::vec3 n = glm::normalize(ring.normal_r * out + lean * std::fabs(ring.normal_r) * on +
+                                     glm::vec3(0, 0, ring.normal_z + 1e-6F));
+  return gpu_vertex(glm::vec3(place * glm::vec4(ring.r * out + glm::vec3(0, 0, ring.z), 1.0F)),
+                    glm::vec3(place * glm::vec4(n, 0.0F)), colour);
 }
 
 /// A body of revolution; rings of radius 0 close it.
 void revolve(const std::vector<Ring>& rings, const glm::mat4& place, MeshData& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (const Ring& ring : rings)
-    for (int s = 0; s < k_sides; ++s) mesh.vertices.push_back(corner_of(ring, s, static_cast<unsigned>(mesh.vertices.size()), place));
+    for (int s = 0; s < k_sides; ++s)
+      mesh.vertices.push_back(
+          corner_of(ring, s, static_cast<unsigned>(mesh.vertices.size()), place));
   for (std::uint32_t r = 0; r + 1 < rings.size(); ++r)
     for (std::uint32_t s = 0; s < k_sides; ++s) {
       const std::uint32_t t = (s + 1) % k_sides, low = first + r * k_sides, high = low + k_sides;
-      for (const std::uint32_t i : {low + s, low + t, high + t, low + s, high + t, high + s}) mesh.indices.push_back(i);
+      for (const std::uint32_t i : {low + s, low + t, high + t, low + s, high + t, high + s})
+        mesh.indices.push_back(i);
     }
 }
 
@@ -68,7 +74,8 @@ void close(std::vector<Ring>& rings, bool below) {
     rings.insert(rings.end(), {edge, middle});
 }
 
-/// So high is what stays while the rest fades from who looks along the instrument: the head with a little neck, of a long one its lower end.
+/// So high is what stays while the rest fades from who looks along the instrument: the head with a
+/// little neck, of a long one its lower end.
 float working_end_mm(const Bur& bur) {
   constexpr float k_neck_mm = 0.7F, k_max_mm = 2.2F;
   return std::min(static_cast<float>(bur.cutting_length_mm) + k_neck_mm, k_max_mm);
@@ -82,8 +89,8 @@ std::vector<Ring> rings_of(const Bur& bur, float from_mm, float to_mm, double st
     const auto z = static_cast<float>(p.at.z_mm);
     if (z < from_mm || z > to_mm) continue;
     const bool coated = p.at.z_mm <= bur.cutting_length_mm;
-    rings.push_back({static_cast<float>(p.at.r_mm), z, static_cast<float>(p.normal.r_mm), static_cast<float>(p.normal.z_mm),
-                     coated ? k_diamond : k_steel, coated});
+    rings.push_back({static_cast<float>(p.at.r_mm), z, static_cast<float>(p.normal.r_mm),
+                     static_cast<float>(p.normal.z_mm), coated ? k_diamond : k_steel, coated});
   }
   return rings;
 }
@@ -92,7 +99,8 @@ std::vector<Ring> rings_of(const Bur& bur, float from_mm, float to_mm, double st
 
 MeshData diamond_head_mesh(const Bur& bur) {
   // a ring farther than where the shank begins: no gap between the two
-  std::vector<Ring> rings = rings_of(bur, -1.0F, working_end_mm(bur) + static_cast<float>(k_fine_mm), k_fine_mm);
+  std::vector<Ring> rings =
+      rings_of(bur, -1.0F, working_end_mm(bur) + static_cast<float>(k_fine_mm), k_fine_mm);
   MeshData mesh;
   if (rings.empty()) return mesh;
   close(rings, true);
@@ -106,8 +114,10 @@ MeshData shank_mesh(const Bur& bur) {
   // the coated part finely, so that its bands wind round; the rest as its profile needs
   const auto coated_to = static_cast<float>(bur.cutting_length_mm), from_mm = working_end_mm(bur);
   std::vector<Ring> rings = rings_of(bur, from_mm, coated_to, k_fine_mm);
-  for (const Ring& ring : rings_of(bur, std::max(from_mm, coated_to), k_shank_ends_mm, k_coarse_mm)) rings.push_back(ring);
-  Ring end = rings.empty() ? rings_of(bur, -1.0F, k_shank_ends_mm, k_coarse_mm).back() : rings.back();
+  for (const Ring& ring : rings_of(bur, std::max(from_mm, coated_to), k_shank_ends_mm, k_coarse_mm))
+    rings.push_back(ring);
+  Ring end =
+      rings.empty() ? rings_of(bur, -1.0F, k_shank_ends_mm, k_coarse_mm).back() : rings.back();
   end.normal_r = 1;
   end.normal_z = 0;
   end.grain = false;
@@ -127,7 +137,8 @@ MeshData handpiece_mesh() {
   MeshData mesh;
   // the head around the turbine: flat below, rounded above
   std::vector<Ring> head;
-  const auto edge = [&head](float r, float z, float nr, float nz, const std::array<std::uint8_t, 4>& colour) {
+  const auto edge = [&head](float r, float z, float nr, float nz,
+                            const std::array<std::uint8_t, 4>& colour) {
     head.push_back({r, z, nr, nz, colour, false});
   };
   edge(0.0F, 11.0F, 0, -1, k_dark);

@@ -15,18 +15,23 @@ bool has_bit(const std::string& mask, std::size_t bit) {
   constexpr std::size_t k_word_bits = 64;
   if (bit / k_word_bits >= all.size()) return false;
   const std::string& word = all[all.size() - 1 - bit / k_word_bits];
-  if (word.empty() || word.size() > 16 || word.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos) return false;
+  if (word.empty() || word.size() > 16 ||
+      word.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
+    return false;
   return (std::stoull(word, nullptr, 16) >> (bit % k_word_bits) & 1U) != 0;
 }
 
-/// Of the kernel's input-event-codes.h: Q, A, Z and the space bar, which every keyboard to write with has.
+/// Of the kernel's input-event-codes.h: Q, A, Z and the space bar, which every keyboard to write
+/// with has.
 bool has_letters(const std::string& mask) {
   for (const std::size_t key : {16U, 30U, 44U, 57U})
     if (!has_bit(mask, key)) return false;
   return true;
 }
 
-std::string after(const std::string& line, const std::string& head) { return line.starts_with(head) ? line.substr(head.size()) : ""; }
+std::string after(const std::string& line, const std::string& head) {
+  return line.starts_with(head) ? line.substr(head.size()) : "";
+}
 
 }  // namespace
 

@@ -1,6 +1,7 @@
-// The light of the scene: a lamp over the mouth, to the left and a little beyond, turning with the eye, and a room around. The room is a few formulas
-// (sky, wall, tray, window), worked out once into what falls on a surface from all sides (spherical harmonics) and what is mirrored by it (a small
-// table, at three roughnesses).
+// The light of the scene: a lamp over the mouth, to the left and a little beyond, turning with the
+// eye, and a room around. The room is a few formulas (sky, wall, tray, window), worked out once
+// into what falls on a surface from all sides (spherical harmonics) and what is mirrored by it (a
+// small table, at three roughnesses).
 #pragma once
 
 #include <array>
@@ -16,7 +17,8 @@ class Room {
  public:
   static constexpr int k_edge = 32, k_roughnesses = 3;
   Room();
-  /// Coefficients of the light that falls on a surface by its normal, over pi: 1, y, z, x, xy, yz, 3z²-1, xz, x²-y².
+  /// Coefficients of the light that falls on a surface by its normal, over pi: 1, y, z, x, xy, yz,
+  /// 3z²-1, xz, x²-y².
   [[nodiscard]] const std::array<glm::vec3, 9>& falling() const noexcept { return falling_; }
   /// What is mirrored, by direction in an octahedron, one roughness beside the other.
   [[nodiscard]] const Table2D& mirrored() const noexcept { return mirrored_; }

@@ -12,7 +12,8 @@ namespace cavum::station {
 class Look {
  public:
   /// Between frames. `most`: the largest scale that the screens have room for.
-  void follow(Window& window, StationState& state, double most = std::numeric_limits<double>::infinity());
+  void follow(Window& window, StationState& state,
+              double most = std::numeric_limits<double>::infinity());
   [[nodiscard]] const Theme& theme() const noexcept { return theme_; }
 
  private:

@@ -15,7 +15,9 @@ struct MeshData {
   std::vector<std::uint32_t> indices;
 };
 
-/// A closed surface in one colour, its normals the mean of the triangles around each vertex, by their areas.
-[[nodiscard]] MeshData smooth_shaded(const TriangleMesh& mesh, const std::array<std::uint8_t, 4>& colour);
+/// A closed surface in one colour, its normals the mean of the triangles around each vertex, by
+/// their areas.
+[[nodiscard]] MeshData smooth_shaded(const TriangleMesh& mesh,
+                                     const std::array<std::uint8_t, 4>& colour);
 
 }  // namespace cavum::station

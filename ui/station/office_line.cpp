@@ -28,18 +28,21 @@ std::string short_line(const std::string& text) {
   std::string line = one_line(text);
   if (line.size() <= k_longest) return line;
   std::size_t end = k_longest;
-  while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xc0U) == 0x80U) --end;  // no letter is cut
+  while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xc0U) == 0x80U)
+    --end;  // no letter is cut
   return line.substr(0, end) + "…";
 }
 
 bool is_open(const Sitting* sitting) {
-  return sitting != nullptr && (sitting->stage() == Stage::running || sitting->stage() == Stage::grading || sitting->stage() == Stage::unsaved ||
-                                sitting->stage() == Stage::interrupted);
+  return sitting != nullptr &&
+         (sitting->stage() == Stage::running || sitting->stage() == Stage::grading ||
+          sitting->stage() == Stage::unsaved || sitting->stage() == Stage::interrupted);
 }
 
 }  // namespace
 
-OfficeLine::OfficeLine(const office::LinkOptions& options) : link_(options, load_station_key(station_key_path())) {}
+OfficeLine::OfficeLine(const office::LinkOptions& options)
+    : link_(options, load_station_key(station_key_path())) {}
 
 office::StationReport office_report(const StationState& state, Sitting* sitting) {
   office::StationReport r;
@@ -68,13 +71,18 @@ office::StationReport office_report(const StationState& state, Sitting* sitting)
   constexpr double k_day_s = 86'400;
   r.here_s = static_cast<std::int64_t>(std::min(k_day_s, sitting->here_s()));
   if (sitting->stage() != Stage::preparing) r.candidate = short_line(sitting->candidate());
-  if (state.screen == Screen::trouble || state.screen == Screen::save) r.alarm = short_line(tr(sitting->trouble()));
+  if (state.screen == Screen::trouble || state.screen == Screen::save)
+    r.alarm = short_line(tr(sitting->trouble()));
   if (sitting->stage() != Stage::running) return r;
   const scenarios::LiveView view = sitting->live().view();
   const auto& steps = sitting->setup().scenario.steps;
   const auto step = static_cast<std::size_t>(view.step);
-  r.step = short_line(step < steps.size() ? fmt::format("{}/{} {}", step + 1, steps.size(), steps[step].id) : fmt::format("{0}/{0}", steps.size()));
-  if (view.limit_ticks > 0) r.left_s = std::max<std::int64_t>(0, (view.limit_ticks - view.ticks + view.paused_ticks) / k_ticks_per_second);
+  r.step = short_line(step < steps.size()
+                          ? fmt::format("{}/{} {}", step + 1, steps.size(), steps[step].id)
+                          : fmt::format("{0}/{0}", steps.size()));
+  if (view.limit_ticks > 0)
+    r.left_s = std::max<std::int64_t>(
+        0, (view.limit_ticks - view.ticks + view.paused_ticks) / k_ticks_per_second);
   r.held = view.held;
   if (view.paused || view.held) r.state = office::AtStation::paused;
   if (!view.recording_error.empty())
@@ -102,7 +110,8 @@ void OfficeLine::exchange(StationState& state, Sitting* sitting) {
     handed_in_ = true;
     link_.hand_in();
   }
-  if (sitting != nullptr && sitting->stage() == Stage::done) state.office_outcome = outcome_text(sitting->path());
+  if (sitting != nullptr && sitting->stage() == Stage::done)
+    state.office_outcome = outcome_text(sitting->path());
 }
 
 void OfficeLine::note_what_was_said(const StationState& state, Sitting& sitting) {
@@ -136,14 +145,17 @@ void OfficeLine::release(const StationState& state, Sitting* sitting) {
 
 void OfficeLine::require_free(const StationState& state) {
   if (state.office && state.office->hold != 0)
-    throw Error(msg("the exam office"), msg("has paused the exams here ({})", state.office->hold_reason), msg("wait until they go on"));
+    throw Error(msg("the exam office"),
+                msg("has paused the exams here ({})", state.office->hold_reason),
+                msg("wait until they go on"));
 }
 
 Message OfficeLine::outcome_text(const std::string& recording) {
   const auto outcome = office::StationLink::outcome(recording);
   if (!outcome) return msg("It is handed in to the exam office by itself as soon as that answers.");
   if (outcome->filed) return msg("Handed in to the exam office: entry {}.", outcome->entry);
-  return msg("The exam office did not take it. Tell the invigilator: {}", Authored{outcome->findings.empty() ? "" : outcome->findings.front()});
+  return msg("The exam office did not take it. Tell the invigilator: {}",
+             Authored{outcome->findings.empty() ? "" : outcome->findings.front()});
 }
 
 Message announcement_text(const office::ReceivedAnnouncement& told) {
@@ -156,12 +168,18 @@ Message announcement_text(const office::ReceivedAnnouncement& told) {
 Message office_status(const StationState& state) {
   if (!state.office) return {};
   const office::LinkView& office = *state.office;
-  const Message now = office.reached ? msg("The exam office answers.")
-                                     : msg("The exam office does not answer: exams go on without it, and are handed in later. {}", office.trouble);
-  return office.waiting > 0 ? msg("{} {}", now, msg("Waiting to be handed in: {}.", office.waiting)) : now;
+  const Message now =
+      office.reached
+          ? msg("The exam office answers.")
+          : msg("The exam office does not answer: exams go on without it, and are handed in later. {}",
+                office.trouble);
+  return office.waiting > 0 ? msg("{} {}", now, msg("Waiting to be handed in: {}.", office.waiting))
+                            : now;
 }
 
-bool may_go_on_without(const StationState& state) noexcept { return state.office && state.office->hold != 0 && state.office->silent_s > k_gone_s; }
+bool may_go_on_without(const StationState& state) noexcept {
+  return state.office && state.office->hold != 0 && state.office->silent_s > k_gone_s;
+}
 
 void office_notice(const ScreenContext& c) {
   StationState& s = c.state;
@@ -178,8 +196,9 @@ void office_notice(const ScreenContext& c) {
   ImGui::PushStyleColor(ImGuiCol_Border, t.warn);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, t.px(2));
   ImGui::Begin("office", nullptr,
-               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
+                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
   if (s.office->hold != 0) {
     text_line(msg("PAUSED BY THE EXAM OFFICE"));
     wrapped_text(Name{s.office->hold_reason});
@@ -197,22 +216,28 @@ void office_notice(const ScreenContext& c) {
 
 void ask_whether_to_go_on(const ScreenContext& c, bool locked) {
   StationState& s = c.state;
-  if (s.screen == Screen::exam && may_go_on_without(s) && key_pressed(GLFW_KEY_HOME)) s.confirm_go_on = true;
+  if (s.screen == Screen::exam && may_go_on_without(s) && key_pressed(GLFW_KEY_HOME))
+    s.confirm_go_on = true;
   if (s.confirm_go_on && !may_go_on_without(s)) s.confirm_go_on = false;
   bool fresh = false;
-  if (!begin_question(c.theme, "Go on?", msg("Go on without the exam office?"), s.confirm_go_on, fresh)) return;
-  text_line(msg("The office has paused this exam and does not answer. That it goes on is recorded."));
+  if (!begin_question(c.theme, "Go on?", msg("Go on without the exam office?"), s.confirm_go_on,
+                      fresh))
+    return;
+  text_line(
+      msg("The office has paused this exam and does not answer. That it goes on is recorded."));
   if (locked) {
     text_line(msg("Supervisor, type your code:"));
     ImGui::SetNextItemWidth(-1);
     if (fresh || std::exchange(s.focus_supervisor, false)) ImGui::SetKeyboardFocusHere();
-    ImGui::InputText("##go on", s.supervisor_code.data(), s.supervisor_code.size(), ImGuiInputTextFlags_Password);
+    ImGui::InputText("##go on", s.supervisor_code.data(), s.supervisor_code.size(),
+                     ImGuiInputTextFlags_Password);
     bad_text(c.theme, s.leave_message);
   }
   ImGui::Dummy({0, c.theme.px(6)});
   if (main_button(c.theme, msg("Go on  (Enter)"), true, !fresh)) s.wish = Wish::go_on;
   ImGui::SameLine();
-  if (ImGui::Button(shown_label(msg("Back  (Esc)")).c_str(), {0, c.theme.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE)))
+  if (ImGui::Button(shown_label(msg("Back  (Esc)")).c_str(), {0, c.theme.px(44)}) ||
+      (!fresh && key_pressed(GLFW_KEY_ESCAPE)))
     s.confirm_go_on = false;
   end_question(s.confirm_go_on);
   if (s.confirm_go_on) return;

@@ -14,7 +14,9 @@ void write_png(const std::string& path, int width, int height, std::span<const u
     static_cast<Bytes*>(to)->insert(static_cast<Bytes*>(to)->end(), first, first + size);
   };
   const int row = width * 3;
-  const unsigned char* top = rgb.data() + static_cast<std::ptrdiff_t>(row) * (height - 1);  // rows upwards: a negative stride turns them round
+  const unsigned char* top =
+      rgb.data() + static_cast<std::ptrdiff_t>(row) *
+                       (height - 1);  // rows upwards: a negative stride turns them round
   if (stbi_write_png_to_func(append, &png, width, height, 3, top, -row) == 0)
     throw Error(Name{path}, msg("cannot be made into a PNG picture"), msg("free some memory"));
   write_file(path, png);

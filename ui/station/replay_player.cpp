@@ -24,8 +24,11 @@ ReplayPlayer::ReplayPlayer(const std::string& path)
       runner_(make_runner()),
       inputs_(reader_.inputs()),
       events_(reader_.events()),
-      moments_(replay_moments(events_, reader_.result_json(), static_cast<std::int64_t>(inputs_.size()), !setup_->scenario.hold_results)),
-      ended_by_hand_(std::any_of(events_.begin(), events_.end(), [](const TimedEvent& e) { return e.as<Finished>() != nullptr; })),
+      moments_(replay_moments(events_, reader_.result_json(),
+                              static_cast<std::int64_t>(inputs_.size()),
+                              !setup_->scenario.hold_results)),
+      ended_by_hand_(std::any_of(events_.begin(), events_.end(),
+                                 [](const TimedEvent& e) { return e.as<Finished>() != nullptr; })),
       between_(std::max<std::int64_t>(1000, ticks() / k_max_snapshots + 1)) {
   Moment first;
   first.servo = simulation_.state;
@@ -63,10 +66,13 @@ std::int64_t ReplayPlayer::reached() {
 void ReplayPlayer::seek(std::int64_t tick) {
   goal_ = std::clamp<std::int64_t>(tick, 0, ticks());
   const auto from = snapshot_before(goal_);
-  if (goal_ < now_->servo.tick || from->servo.tick > now_->servo.tick) now_ = std::make_unique<Moment>(*from);
+  if (goal_ < now_->servo.tick || from->servo.tick > now_->servo.tick)
+    now_ = std::make_unique<Moment>(*from);
 }
 
-scenarios::Runner ReplayPlayer::make_runner() const { return {setup_->scenario, setup_->zones, setup_->tooth, setup_->bur_names}; }
+scenarios::Runner ReplayPlayer::make_runner() const {
+  return {setup_->scenario, setup_->zones, setup_->tooth, setup_->bur_names};
+}
 
 void ReplayPlayer::take_tick(Moment& moment, scenarios::Runner& runner) const {
   moment.input = inputs_[static_cast<std::size_t>(moment.servo.tick)];
@@ -77,7 +83,8 @@ void ReplayPlayer::take_tick(Moment& moment, scenarios::Runner& runner) const {
 
 bool ReplayPlayer::work(double budget_s) {
   using Clock = std::chrono::steady_clock;
-  const auto until = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(budget_s));
+  const auto until = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                        std::chrono::duration<double>(budget_s));
   constexpr int k_between_looks = 64;
   while (now_->servo.tick < goal_) {
     seek(goal_);  // the snapshots may have come nearer

@@ -1,6 +1,7 @@
-// A recorded exam, taken again from its inputs and shown at any moment. A thread of its own takes the whole exam once, as fast as the computer can,
-// and leaves snapshots on the way; from the nearest of them any moment is near. Nothing in it is a film; what it shows is what the same physics makes
-// of the same inputs.
+// A recorded exam, taken again from its inputs and shown at any moment. A thread of its own takes
+// the whole exam once, as fast as the computer can, and leaves snapshots on the way; from the
+// nearest of them any moment is near. Nothing in it is a film; what it shows is what the same
+// physics makes of the same inputs.
 #pragma once
 
 #include <memory>
@@ -19,19 +20,23 @@ namespace cavum::station {
 
 class ReplayPlayer {
  public:
-  /// Throws Error when the session is damaged, or was recorded under another version of the physics.
+  /// Throws Error when the session is damaged, or was recorded under another version of the
+  /// physics.
   explicit ReplayPlayer(const std::string& path);
 
   [[nodiscard]] const scenarios::ExamSetup& setup() const noexcept { return *setup_; }
   [[nodiscard]] const SessionReader& session() const noexcept { return reader_; }
   [[nodiscard]] const std::vector<ReplayMoment>& moments() const noexcept { return moments_; }
-  [[nodiscard]] std::int64_t ticks() const noexcept { return static_cast<std::int64_t>(inputs_.size()); }
+  [[nodiscard]] std::int64_t ticks() const noexcept {
+    return static_cast<std::int64_t>(inputs_.size());
+  }
 
   /// Where to go, 0..ticks(): the moment after so many ticks.
   void seek(std::int64_t tick);
   /// Goes there for `budget_s` at most; true when it is there.
   bool work(double budget_s);
-  /// How far the snapshots reach, ticks: up to there every moment is at most `between()` ticks from one.
+  /// How far the snapshots reach, ticks: up to there every moment is at most `between()` ticks from
+  /// one.
   [[nodiscard]] std::int64_t reached();
   [[nodiscard]] std::int64_t between() const noexcept { return between_; }
 
@@ -49,7 +54,9 @@ class ReplayPlayer {
   [[nodiscard]] std::int64_t tick() const noexcept { return now_->servo.tick; }
   [[nodiscard]] const Octree& tooth() const noexcept { return now_->servo.tooth; }
   [[nodiscard]] const scenarios::RunnerState& runner() const noexcept { return now_->runner; }
-  [[nodiscard]] const std::string& instruction(const scenarios::RunnerState& at) const noexcept { return runner_.instruction(at); }
+  [[nodiscard]] const std::string& instruction(const scenarios::RunnerState& at) const noexcept {
+    return runner_.instruction(at);
+  }
   [[nodiscard]] std::uint64_t hash() const noexcept { return state_hash(now_->servo); }
 
  private:
@@ -79,9 +86,10 @@ class ReplayPlayer {
   std::int64_t between_ = 1, goal_ = 0;
   std::unique_ptr<Moment> now_;
   Shown shown_;
-  std::mutex mutex_;                                      // of what stands below it
-  std::vector<std::shared_ptr<const Moment>> snapshots_;  // every `between_` ticks, as far as they reach
-  std::jthread filler_;                                   // last: it ends before anything it uses
+  std::mutex mutex_;  // of what stands below it
+  std::vector<std::shared_ptr<const Moment>>
+      snapshots_;        // every `between_` ticks, as far as they reach
+  std::jthread filler_;  // last: it ends before anything it uses
 };
 
 }  // namespace cavum::station

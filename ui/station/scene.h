@@ -1,6 +1,8 @@
-// The picture of the work: tooth, bur and handpiece, lit by a lamp over the mouth, whose shadows show how far the head is from what it will
-// touch, and by the room. A soft dark ring says that it touches. In practice the tooth is as clear as water, with the pulp and what is to be removed
-// in colour within; an exam shows none of that. How much is done for a picture follows what the last ones took.
+// The picture of the work: tooth, bur and handpiece, lit by a lamp over the mouth, whose shadows
+// show how far the head is from what it will touch, and by the room. A soft dark ring says that it
+// touches. In practice the tooth is as clear as water, with the pulp and what is to be removed in
+// colour within; an exam shows none of that. How much is done for a picture follows what the last
+// ones took.
 #pragma once
 
 #include <map>
@@ -23,9 +25,10 @@ namespace cavum::station {
 /// What is to be seen.
 struct SceneView {
   Camera camera;
-  Pose tool;              ///< tip as the tooth allows it
-  int bur = -1;           ///< of the tray; -1 = no instrument
-  bool pressed = false;   ///< the tooth holds the instrument, also by its side or shank: seen where it is
+  Pose tool;     ///< tip as the tooth allows it
+  int bur = -1;  ///< of the tray; -1 = no instrument
+  bool pressed =
+      false;  ///< the tooth holds the instrument, also by its side or shank: seen where it is
   float spin_rad = 0;     ///< how far the running bur has turned, as shown
   bool handpiece = true;  ///< shown; it fades where one looks along it
   bool foot = true;       ///< the ring on the tissue below the head, wider the higher the head is
@@ -39,9 +42,11 @@ struct SceneView {
 /// The running bur turns as far as an eye can follow from one picture to the next.
 void turn_bur(SceneView& view, double rpm, double frame_s);
 
-// What the table of an instrument's distances covers, tool frame, and where in it a place lies; higher than the last, a head has no ring below it.
+// What the table of an instrument's distances covers, tool frame, and where in it a place lies;
+// higher than the last, a head has no ring below it.
 inline constexpr float k_widest_mm = 3.0F, k_lowest_mm = -1.5F, k_highest_mm = 8.5F;
-inline constexpr glm::vec3 k_tool_table(1.0F / k_widest_mm, 1.0F / (k_highest_mm - k_lowest_mm), -k_lowest_mm / (k_highest_mm - k_lowest_mm));
+inline constexpr glm::vec3 k_tool_table(1.0F / k_widest_mm, 1.0F / (k_highest_mm - k_lowest_mm),
+                                        -k_lowest_mm / (k_highest_mm - k_lowest_mm));
 inline constexpr float k_foot_ends_mm = 5.0F;
 [[nodiscard]] glm::mat4 to_glm(const Pose& pose);
 /// 0 to 1: a handpiece would hide the work from whoever looks along it.
@@ -50,10 +55,12 @@ inline constexpr float k_foot_ends_mm = 5.0F;
 class Scene {
  public:
   /// `target`: of practice; null = none is shown.
-  Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std::vector<Bur>& tray, const scenarios::ZoneMap* target);
+  Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std::vector<Bur>& tray,
+        const scenarios::ZoneMap* target);
 
   [[nodiscard]] ToothDrawing& tooth() noexcept { return tooth_; }
-  /// Bodies seen through clear tissue, one over the other in this order, in the colours and opacities of their corners.
+  /// Bodies seen through clear tissue, one over the other in this order, in the colours and
+  /// opacities of their corners.
   void show_bodies(std::vector<GpuMesh> bodies);
   /// A texture with the picture for this size; drawn again only when something differs.
   [[nodiscard]] unsigned picture(const SceneView& view, int width, int height);
@@ -62,7 +69,9 @@ class Scene {
   /// What the last drawn picture took.
   [[nodiscard]] const DrawCount& counted() const noexcept { return count_; }
   /// Of `k_effects`: as the computer keeps up with, or as set.
-  [[nodiscard]] std::size_t effects_level() const noexcept { return fixed_level_.value_or(governor_.level()); }
+  [[nodiscard]] std::size_t effects_level() const noexcept {
+    return fixed_level_.value_or(governor_.level());
+  }
   void fix_effects(std::optional<std::size_t> level) { fixed_level_ = level; }
 
  private:
@@ -76,26 +85,33 @@ class Scene {
     std::uint64_t version = 0;
     float turn_deg = 0;
     glm::vec3 target_mm{0};
-    [[nodiscard]] bool same_lamp(const ShadowOf& other) const { return turn_deg == other.turn_deg && target_mm == other.target_mm; }
+    [[nodiscard]] bool same_lamp(const ShadowOf& other) const {
+      return turn_deg == other.turn_deg && target_mm == other.target_mm;
+    }
   };
   /// How much the head touches, 0..1.
   [[nodiscard]] float touch(const SceneView& view) const;
   /// How far down along its axis the head is free, mm; 5 and a little at most.
   [[nodiscard]] float above_mm(const SceneView& view) const;
   void cast_shadows(const SceneView& view, const Effects& effects);
-  void draw_eye(const SceneView& view, int eye, int x, int width, int height, const Programs& programs);
-  void draw_tooth(const SceneView& view, const ToothDrawing::Sight& sight, const Programs& programs);
+  void draw_eye(const SceneView& view, int eye, int x, int width, int height,
+                const Programs& programs);
+  void draw_tooth(const SceneView& view, const ToothDrawing::Sight& sight,
+                  const Programs& programs);
   /// The target through hard tissue that is clear as glass.
-  void draw_clear_tissue(const SceneView& view, const ToothDrawing::Sight& sight, const Programs& programs);
+  void draw_clear_tissue(const SceneView& view, const ToothDrawing::Sight& sight,
+                         const Programs& programs);
   void draw_bodies(const SceneView& view, const ToothDrawing::Sight& sight);
   /// Spray and chips, with the tooth before them.
-  void draw_drops(const SceneView& view, const ToothDrawing::Sight& sight, float width, float height);
+  void draw_drops(const SceneView& view, const ToothDrawing::Sight& sight, float width,
+                  float height);
   [[nodiscard]] bool has_drops(const SceneView& view) const;
   void draw_metal(const GpuMesh& mesh, const ShaderProgram& metal, float opacity);
   /// Where something is drawn, pixels: from x, y to x, y.
   [[nodiscard]] glm::ivec4 rectangle_drawn(const SceneView& view, int width, int height) const;
   void smooth_edges(const SceneView& view);
-  void light(const ShaderProgram& program, const SceneView& view, const ToothDrawing::Sight& sight) const;
+  void light(const ShaderProgram& program, const SceneView& view,
+             const ToothDrawing::Sight& sight) const;
   [[nodiscard]] const Programs& programs(const Effects& effects);
   [[nodiscard]] bool has_tool(const SceneView& view) const;
   [[nodiscard]] static glm::mat4 tool_matrix(const SceneView& view);
@@ -106,9 +122,10 @@ class Scene {
   ToothDrawing tooth_;
   std::vector<Tissue> tissues_;
   std::vector<GpuMesh> heads_, shanks_, bodies_;
-  std::vector<Table2D> distances_;                  // of the burs
-  std::vector<std::vector<Vec3>> surfaces_, ends_;  // of the whole heads; of their lowest millimetre
-  std::vector<double> radii_mm_;                    // of the heads
+  std::vector<Table2D> distances_;  // of the burs
+  std::vector<std::vector<Vec3>> surfaces_,
+      ends_;                      // of the whole heads; of their lowest millimetre
+  std::vector<double> radii_mm_;  // of the heads
   GpuMesh handpiece_, target_;
   GpuDrops drops_;
   ShaderProgram depth_program_, plain_program_, glass_program_, drop_program_, smooth_program_;
@@ -117,7 +134,8 @@ class Scene {
   std::optional<std::size_t> fixed_level_;
   Room room_;
   Lamp lamp_;
-  DepthMap resting_shadow_, shadow_, no_shadow_;  // of the tooth alone; with the instrument; of nothing
+  DepthMap resting_shadow_, shadow_,
+      no_shadow_;  // of the tooth alone; with the instrument; of nothing
   ShadowOf resting_;
   int cuts_in_a_row_ = 0;  // pictures for each of which the tooth was another
   RenderTarget target_picture_, smoothed_;

@@ -14,11 +14,15 @@ float along_tool(const SceneView& view, int eye) {
   return std::fabs(glm::dot(sight_line, glm::normalize(glm::vec3(to_glm(view.tool)[2]))));
 }
 /// The shank would hide the work from whoever looks along it; the head of the bur stays.
-float shank_opacity(const SceneView& view, int eye) { return 1.0F - 0.86F * glm::smoothstep(0.80F, 0.94F, along_tool(view, eye)); }
+float shank_opacity(const SceneView& view, int eye) {
+  return 1.0F - 0.86F * glm::smoothstep(0.80F, 0.94F, along_tool(view, eye));
+}
 
 }  // namespace
 
-float handpiece_opacity(const SceneView& view, int eye) { return 1.0F - glm::smoothstep(0.35F, 0.62F, along_tool(view, eye)); }
+float handpiece_opacity(const SceneView& view, int eye) {
+  return 1.0F - glm::smoothstep(0.35F, 0.62F, along_tool(view, eye));
+}
 
 void Scene::cast_shadows(const SceneView& view, const Effects& effects) {
   lamp_ = lamp_of(view.camera, effects.shadow_edge);
@@ -29,17 +33,20 @@ void Scene::cast_shadows(const SceneView& view, const Effects& effects) {
   glPolygonOffset(1.5F, 2.0F);
   depth_program_.use();
   depth_program_.set("to_lamp", lamp_.to_lamp);
-  // of the tooth only when it or the lamp moved; while it is cut in picture after picture, only in each fourth
+  // of the tooth only when it or the lamp moved; while it is cut in picture after picture, only in
+  // each fourth
   constexpr int k_cuts_a_shadow = 4;
   const ShadowOf now{tooth_.version(), view.camera.turn_deg, view.camera.target_mm};
   cuts_in_a_row_ = now.version == shown_version_ ? 0 : cuts_in_a_row_ + 1;
-  const bool fresh = resting_shadow_.resize(effects.shadow_edge), cut_on = cuts_in_a_row_ > 0 && cuts_in_a_row_ % k_cuts_a_shadow != 1;
+  const bool fresh = resting_shadow_.resize(effects.shadow_edge),
+             cut_on = cuts_in_a_row_ > 0 && cuts_in_a_row_ % k_cuts_a_shadow != 1;
   if (fresh || !now.same_lamp(resting_) || (now.version != resting_.version && !cut_on)) {
     resting_ = now;
     resting_shadow_.begin();
     depth_program_.set("model", glm::mat4(1.0F));
     constexpr float k_sun_mm = 1000.0F;
-    tooth_.draw_hard_tissue({view.camera.target_mm + k_sun_mm * lamp_.towards, lamp_.to_lamp}, count_);
+    tooth_.draw_hard_tissue({view.camera.target_mm + k_sun_mm * lamp_.towards, lamp_.to_lamp},
+                            count_);
   }
   shadow_.resize(effects.shadow_edge);
   shadow_.begin_with(resting_shadow_);
@@ -52,7 +59,8 @@ void Scene::cast_shadows(const SceneView& view, const Effects& effects) {
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
-void Scene::draw_tooth(const SceneView& view, const ToothDrawing::Sight& sight, const Programs& programs) {
+void Scene::draw_tooth(const SceneView& view, const ToothDrawing::Sight& sight,
+                       const Programs& programs) {
   const auto palette = colours(view.high_contrast);
   const auto prepare = [&](const ShaderProgram& program) {
     light(program, view, sight);
@@ -74,12 +82,16 @@ void Scene::draw_tooth(const SceneView& view, const ToothDrawing::Sight& sight, 
   const float touches = touch(view);
   touched.set("tool_table", glm::vec4(k_tool_table, touches));
   const float above = view.foot ? above_mm(view) : k_foot_ends_mm;
-  const float shows = (1.0F - touches) * (1.0F - glm::smoothstep(k_foot_ends_mm - 1.0F, k_foot_ends_mm, above));
+  const float shows =
+      (1.0F - touches) * (1.0F - glm::smoothstep(k_foot_ends_mm - 1.0F, k_foot_ends_mm, above));
   constexpr float k_beside_mm = 0.15F, k_opens = 0.6F, k_bends_per_mm = 0.15F, k_deeper_mm = 2.0F;
   const auto head_mm = static_cast<float>(radii_mm_[static_cast<std::size_t>(view.bur)]);
-  touched.set("foot", glm::vec4(head_mm + k_beside_mm + k_opens * above / (1.0F + k_bends_per_mm * above), -above - k_deeper_mm, shows, 0));
+  touched.set("foot",
+              glm::vec4(head_mm + k_beside_mm + k_opens * above / (1.0F + k_bends_per_mm * above),
+                        -above - k_deeper_mm, shows, 0));
   touched.set("tool_axis", glm::vec3(to_glm(view.tool)[2]));
-  touched.set_texture("tool_mm", 2, GL_TEXTURE_2D, distances_[static_cast<std::size_t>(view.bur)].texture());
+  touched.set_texture("tool_mm", 2, GL_TEXTURE_2D,
+                      distances_[static_cast<std::size_t>(view.bur)].texture());
   // the tip's ball, and as far as its touch and its foot are seen
   constexpr float k_around_mm = 5.5F;
   const glm::vec3 middle(to_glm(view.tool)[3]);
@@ -89,7 +101,8 @@ void Scene::draw_tooth(const SceneView& view, const ToothDrawing::Sight& sight, 
   tooth_.draw_hard_tissue(sight, count_, {middle, k_around_mm, false});
 }
 
-void Scene::draw_clear_tissue(const SceneView& view, const ToothDrawing::Sight& sight, const Programs& programs) {
+void Scene::draw_clear_tissue(const SceneView& view, const ToothDrawing::Sight& sight,
+                              const Programs& programs) {
   const auto palette = colours(view.high_contrast);
   light(*programs.tooth, view, sight);
   programs.tooth->set("colours", std::span(palette));
@@ -130,10 +143,12 @@ void Scene::draw_bodies(const SceneView& view, const ToothDrawing::Sight& sight)
 }
 
 bool Scene::has_drops(const SceneView& view) const {
-  return view.drops && has_tool(view) && (view.spray.water > 0 || view.spray.chips > 0) && k_effects[effects_level()].drops > 0;
+  return view.drops && has_tool(view) && (view.spray.water > 0 || view.spray.chips > 0) &&
+         k_effects[effects_level()].drops > 0;
 }
 
-void Scene::draw_drops(const SceneView& view, const ToothDrawing::Sight& sight, float width, float height) {
+void Scene::draw_drops(const SceneView& view, const ToothDrawing::Sight& sight, float width,
+                       float height) {
   drop_program_.use();
   drop_program_.set("model", to_glm(view.tool));
   drop_program_.set("to_picture", sight.to_picture);
@@ -162,9 +177,12 @@ void Scene::draw_metal(const GpuMesh& mesh, const ShaderProgram& metal, float op
   glDisable(GL_BLEND);
 }
 
-void Scene::draw_eye(const SceneView& view, int eye, int x, int width, int height, const Programs& programs) {
+void Scene::draw_eye(const SceneView& view, int eye, int x, int width, int height,
+                     const Programs& programs) {
   glViewport(x, 0, width, height);
-  const glm::mat4 to_picture = view.camera.projection(static_cast<float>(width) / static_cast<float>(height)) * view.camera.view(eye);
+  const glm::mat4 to_picture =
+      view.camera.projection(static_cast<float>(width) / static_cast<float>(height)) *
+      view.camera.view(eye);
   const ToothDrawing::Sight sight{view.camera.position_mm(eye), to_picture};
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
@@ -175,7 +193,8 @@ void Scene::draw_eye(const SceneView& view, int eye, int x, int width, int heigh
   const auto metal = [&](const glm::mat4& model) {
     light(*programs.metal, view, sight);
     programs.metal->set("model", model);
-    programs.metal->set_texture("shadow", 1, GL_TEXTURE_2D, view.clear ? no_shadow_.texture() : resting_shadow_.texture());
+    programs.metal->set_texture("shadow", 1, GL_TEXTURE_2D,
+                                view.clear ? no_shadow_.texture() : resting_shadow_.texture());
   };
   if (tool) {
     metal(tool_matrix(view));
@@ -187,10 +206,12 @@ void Scene::draw_eye(const SceneView& view, int eye, int x, int width, int heigh
   } else {
     draw_tooth(view, sight, programs);
   }
-  if (has_drops(view)) draw_drops(view, sight, static_cast<float>(width), static_cast<float>(height));
+  if (has_drops(view))
+    draw_drops(view, sight, static_cast<float>(width), static_cast<float>(height));
   if (tool) {
     metal(tool_matrix(view));
-    draw_metal(shanks_[static_cast<std::size_t>(view.bur)], *programs.metal, shank_opacity(view, eye));
+    draw_metal(shanks_[static_cast<std::size_t>(view.bur)], *programs.metal,
+               shank_opacity(view, eye));
     programs.metal->set("model", to_glm(view.tool));
     if (view.handpiece) draw_metal(handpiece_, *programs.metal, handpiece_opacity(view, eye));
   }

@@ -1,4 +1,5 @@
-// The screens of a sitting, one function each: it shows what there is and leaves its wish in the state. None of them waits for anything.
+// The screens of a sitting, one function each: it shows what there is and leaves its wish in the
+// state. None of them waits for anything.
 #pragma once
 
 #include <vector>
@@ -42,14 +43,18 @@ void replay_screen(const ScreenContext& c);
 /// Over any of them, while `confirm_leave`. `locked`: only the supervisor's code closes the window.
 void ask_whether_to_leave(const ScreenContext& c, bool locked);
 
-/// The picture of the tooth, in the rest of the running window; turned with the mouse and by keys: A D W S round the tooth, + and - nearer and
-/// farther, 1 to 5 from occlusal, buccal, lingual, mesial, distal, M mirror, T both eyes, H handpiece, R rolls the picture. Returns whether the
+/// The picture of the tooth, in the rest of the running window; turned with the mouse and by keys:
+/// A D W S round the tooth, + and - nearer and farther, 1 to 5 from occlusal, buccal, lingual,
+/// mesial, distal, M mirror, T both eyes, H handpiece, R rolls the picture. Returns whether the
 /// mouse is over it.
 bool tooth_area(const ScreenContext& c, ImVec2 size);
-/// Its lower left corner on the screen and its size, of the last tooth_area: for words written into it.
-void words_in_picture(const Theme& theme, ImVec2 at, ImVec2 size, const Message& upper, const Message& lower, const ImVec4& colour);
+/// Its lower left corner on the screen and its size, of the last tooth_area: for words written into
+/// it.
+void words_in_picture(const Theme& theme, ImVec2 at, ImVec2 size, const Message& upper,
+                      const Message& lower, const ImVec4& colour);
 
-/// Whether a place of the tooth frame lies outside the picture of the tooth; then an arrow at the picture's edge shows where to.
+/// Whether a place of the tooth frame lies outside the picture of the tooth; then an arrow at the
+/// picture's edge shows where to.
 bool arrow_to_what_is_out(const ScreenContext& c, Vec3 place_mm, ImVec2 at, ImVec2 size);
 
 /// All over a picture whose hand is a simulated one, pixels.

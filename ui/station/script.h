@@ -1,12 +1,15 @@
-// Keys pressed by a file instead of a hand, for demonstrations and tests of the station: they come in by the door of the keyboard. What takes
-// longer than 10 s says on standard error what it waits for; no screen, field or exam is awaited for more than 300 s. One command a line, # begins a
+// Keys pressed by a file instead of a hand, for demonstrations and tests of the station: they come
+// in by the door of the keyboard. What takes longer than 10 s says on standard error what it waits
+// for; no screen, field or exam is awaited for more than 300 s. One command a line, # begins a
 // comment:
-//   wait SCREEN      until that screen shows: sign-in, self-check, preparing, device-check, briefing, exam, grading, result, trouble,
+//   wait SCREEN      until that screen shows: sign-in, self-check, preparing, device-check,
+//   briefing, exam, grading, result, trouble,
 //                    save, author, author-busy
 //   go SCREEN        presses enter now and then until that screen shows
 //   until SECONDS    until the exam's clock has come so far
 //   type TEXT        letters, once there is a field for them
-//   key NAME         enter, escape, space, tab, pageup, pagedown, left, right, up, down, f1 to f12, home, end, ctrl, shift,
+//   key NAME         enter, escape, space, tab, pageup, pagedown, left, right, up, down, f1 to f12,
+//   home, end, ctrl, shift,
 //                    a letter, a digit, [ ] + - , . ; a second word holds it so many seconds
 //   hold NAME        a key, while other commands go on
 //   release NAME     lets it go
@@ -15,9 +18,10 @@
 //   stall SECONDS    the window stands still, as with a graphics card that hangs
 //   hide, show       the window
 //   picture NAME     of the screen, NAME.png in the folder of pictures
-//   words NAME       that the screen says, NAME.txt beside the pictures; a screen that says nothing in widgets adds none
-//   pace PICTURES    a second from now on, as near as the computer can
-//   tell NAME        from now on, of each picture, a line in NAME.txt beside the pictures: its screen, the exam's clock in seconds, and where it
+//   words NAME       that the screen says, NAME.txt beside the pictures; a screen that says nothing
+//   in widgets adds none pace PICTURES    a second from now on, as near as the computer can tell
+//   NAME        from now on, of each picture, a line in NAME.txt beside the pictures: its screen,
+//   the exam's clock in seconds, and where it
 //                    shows the tip (tooth frame, mm)
 //   memory NAME      prints NAME and what the program holds in memory, MB
 //   fail             throws in the window's thread
@@ -39,7 +43,8 @@ class Script {
   Script() = default;
   /// Throws Error(path:line, ...) for a command that is none.
   Script(const std::string& text, const std::string& path, std::string pictures);
-  /// Before each frame: does what is due. `exam_s`: the exam's clock. Throws Error when a wait is in vain, or for `fail`.
+  /// Before each frame: does what is due. `exam_s`: the exam's clock. Throws Error when a wait is
+  /// in vain, or for `fail`.
   void step(Window& window, Screen screen, double exam_s, double now_s);
   [[nodiscard]] bool done() const noexcept { return next_ >= commands_.size(); }
   /// Pictures a second that it asked for; 0 = none.

@@ -13,9 +13,12 @@ namespace {
 constexpr float k_check_width = 720;
 
 void found_figures(const Theme& t, const ArmFigures& f) {
-  quiet_text(t, msg("Friction {}, {} and {}; moved mass {} g; step {}; {} readings a second.", as_n(f.axes[0].friction_n), as_n(f.axes[1].friction_n),
-                    as_n(f.axes[2].friction_n), as_number(1000.0 / 3.0 * (f.axes[0].mass_kg + f.axes[1].mass_kg + f.axes[2].mass_kg), 0),
-                    as_mm(f.quantum_mm, 3), as_number(f.rate_hz, 0)));
+  quiet_text(
+      t,
+      msg("Friction {}, {} and {}; moved mass {} g; step {}; {} readings a second.",
+          as_n(f.axes[0].friction_n), as_n(f.axes[1].friction_n), as_n(f.axes[2].friction_n),
+          as_number(1000.0 / 3.0 * (f.axes[0].mass_kg + f.axes[1].mass_kg + f.axes[2].mass_kg), 0),
+          as_mm(f.quantum_mm, 3), as_number(f.rate_hz, 0)));
 }
 
 /// Something changed, or nothing can be said: again, or on with it.
@@ -32,7 +35,8 @@ void ask_to_go_on(const ScreenContext& c, bool fresh_code) {
       s.wish = Wish::check_go_on;
   } else {
     ImGui::SameLine();
-    if (side_button(t, msg("Go on with it  (G)")) || key_pressed(GLFW_KEY_G)) s.wish = Wish::check_go_on;
+    if (side_button(t, msg("Go on with it  (G)")) || key_pressed(GLFW_KEY_G))
+      s.wish = Wish::check_go_on;
   }
   quiet_text(t, msg("What is decided is kept, and the exam says it."));
 }
@@ -58,12 +62,14 @@ void self_check_screen(const ScreenContext& c) {
     if (check.good()) {
       if (main_button(t, msg("Continue  (Enter)"), true)) s.wish = Wish::check_go_on;
     } else {
-      if (e.verdict.outcome == CheckOutcome::changed) quiet_text(t, msg("Since {}.", utc_text(e.since_utc_ns)));
+      if (e.verdict.outcome == CheckOutcome::changed)
+        quiet_text(t, msg("Since {}.", utc_text(e.since_utc_ns)));
       ask_to_go_on(c, false);
     }
   } else {
     bad_text(t, check.error());
-    wrapped_text(msg("Put the stylus into the middle of its reach, out of its holder. Then let go of it: it is pushed gently, by 1 N at most."));
+    wrapped_text(msg(
+        "Put the stylus into the middle of its reach, out of its holder. Then let go of it: it is pushed gently, by 1 N at most."));
     ImGui::Dummy({0, t.px(8)});
     if (main_button(t, msg("Begin the check  (Enter)"), true)) s.wish = Wish::check;
   }

@@ -30,17 +30,22 @@ struct Awaited {
 
 Bool is_awaited(Display*, XEvent* event, XPointer awaited) {
   const auto* a = reinterpret_cast<const Awaited*>(awaited);
-  return event->type == PropertyNotify && event->xproperty.window == a->window && event->xproperty.atom == a->atom ? True : False;
+  return event->type == PropertyNotify && event->xproperty.window == a->window &&
+                 event->xproperty.atom == a->atom
+             ? True
+             : False;
 }
 
 }  // namespace
 
 ServerTimes::ServerTimes(GLFWwindow* window, double (*now_s)()) : now_s_(now_s) {
   Display* display = glfwGetX11Display();
-  // a change of a property that changes nothing comes back with the server's time; GLFW listens for those of its windows
+  // a change of a property that changes nothing comes back with the server's time; GLFW listens for
+  // those of its windows
   Awaited awaited{glfwGetX11Window(window), XInternAtom(display, "CAVUM_CLOCK", False)};
   const unsigned char nothing = 0;
-  XChangeProperty(display, awaited.window, awaited.atom, XA_INTEGER, 8, PropModeAppend, &nothing, 0);
+  XChangeProperty(display, awaited.window, awaited.atom, XA_INTEGER, 8, PropModeAppend, &nothing,
+                  0);
   XEvent event;
   XIfEvent(display, &event, is_awaited, reinterpret_cast<XPointer>(&awaited));
   zero_ms_ = static_cast<std::uint32_t>(event.xproperty.time);
@@ -48,7 +53,9 @@ ServerTimes::ServerTimes(GLFWwindow* window, double (*now_s)()) : now_s_(now_s) 
 }
 
 double ServerTimes::own_s(std::uint32_t server_ms) const {
-  return zero_s_ + 1e-3 * static_cast<double>(static_cast<std::int32_t>(server_ms - zero_ms_));  // the server's clock begins anew after 49 days
+  return zero_s_ +
+         1e-3 * static_cast<double>(static_cast<std::int32_t>(
+                    server_ms - zero_ms_));  // the server's clock begins anew after 49 days
 }
 
 void ServerTimes::look() {
@@ -58,16 +65,20 @@ void ServerTimes::look() {
   const Look note = [this](const XEvent& e) {
     const bool down = e.type == KeyPress || e.type == ButtonPress;
     if (e.type == KeyPress || e.type == KeyRelease)
-      seen_.push_back({true, down, static_cast<int>(e.xkey.keycode), own_s(static_cast<std::uint32_t>(e.xkey.time))});
+      seen_.push_back({true, down, static_cast<int>(e.xkey.keycode),
+                       own_s(static_cast<std::uint32_t>(e.xkey.time))});
     if (e.type == ButtonPress || e.type == ButtonRelease)
-      seen_.push_back({false, down, static_cast<int>(e.xbutton.button), own_s(static_cast<std::uint32_t>(e.xbutton.time))});
+      seen_.push_back({false, down, static_cast<int>(e.xbutton.button),
+                       own_s(static_cast<std::uint32_t>(e.xbutton.time))});
   };
   XEvent none;
   XCheckIfEvent(display, &none, look_only, reinterpret_cast<XPointer>(const_cast<Look*>(&note)));
 }
 
 double ServerTimes::take(bool key, int code, bool down) {
-  const auto found = std::find_if(seen_.begin(), seen_.end(), [&](const Seen& s) { return s.key == key && s.code == code && s.down == down; });
+  const auto found = std::find_if(seen_.begin(), seen_.end(), [&](const Seen& s) {
+    return s.key == key && s.code == code && s.down == down;
+  });
   if (found == seen_.end()) return now_s_();
   const double t_s = found->t_s;
   seen_.erase(found);

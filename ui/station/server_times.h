@@ -1,4 +1,5 @@
-// When keys and buttons were really pressed: the X server's times of the events that GLFW is about to hand out, which it does not tell.
+// When keys and buttons were really pressed: the X server's times of the events that GLFW is about
+// to hand out, which it does not tell.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,8 @@ class ServerTimes {
   ServerTimes(GLFWwindow* window, double (*now_s)());
   /// Just before GLFW hands out what waits.
   void look();
-  /// Of the next such event in the order in which they came; now, for one that came meanwhile. `code`: scancode of GLFW, or its button.
+  /// Of the next such event in the order in which they came; now, for one that came meanwhile.
+  /// `code`: scancode of GLFW, or its button.
   [[nodiscard]] double of_key(int scancode, bool down);
   [[nodiscard]] double of_button(int button, bool down);
 

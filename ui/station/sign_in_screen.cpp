@@ -10,7 +10,11 @@ namespace cavum::station {
 void sign_in_screen(const ScreenContext& c) {
   const Theme& t = c.theme;
   StationState& s = c.state;
-  begin_card(t, s.goes_on ? msg("The exam goes on") : c.practice ? msg("Practice") : msg("Examination"), 620);
+  begin_card(t,
+             s.goes_on    ? msg("The exam goes on")
+             : c.practice ? msg("Practice")
+                          : msg("Examination"),
+             620);
   wrapped_text(msg("{}", Authored{c.scenario.title}));
   if (!c.scenario.description.empty()) quiet_text(t, msg("{}", Authored{c.scenario.description}));
   ImGui::Dummy({0, t.px(10)});
@@ -19,10 +23,12 @@ void sign_in_screen(const ScreenContext& c) {
   push_font(Font::heading);
   if (s.focus_code) ImGui::SetKeyboardFocusHere();
   s.focus_code = false;
-  const bool entered = ImGui::InputText("##code", s.code.data(), s.code.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = ImGui::InputText("##code", s.code.data(), s.code.size(),
+                                        ImGuiInputTextFlags_EnterReturnsTrue);
   pop_font();
-  quiet_text(t, s.goes_on ? msg("The code that it was begun with: what was done so far is kept.")
-                          : msg("The code on your card, never your name. It is kept with the recording."));
+  quiet_text(
+      t, s.goes_on ? msg("The code that it was begun with: what was done so far is kept.")
+                   : msg("The code on your card, never your name. It is kept with the recording."));
   ImGui::Dummy({0, t.px(8)});
   ImGui::Checkbox(shown_label(msg("Left-handed layout")).c_str(), &s.left_handed);
   ImGui::SameLine(0, t.px(24));
@@ -32,18 +38,22 @@ void sign_in_screen(const ScreenContext& c) {
   ImGui::SameLine();
   ImGui::SetNextItemWidth(t.px(220));
   auto scale = static_cast<float>(s.text_scale);
-  ImGui::SliderFloat("##scale", &scale, 0.8F, 1.8F, tr("{}", as_number(s.text_scale, 1)).c_str(), ImGuiSliderFlags_NoInput);
+  ImGui::SliderFloat("##scale", &scale, 0.8F, 1.8F, tr("{}", as_number(s.text_scale, 1)).c_str(),
+                     ImGuiSliderFlags_NoInput);
   s.text_scale = static_cast<double>(static_cast<int>(scale * 10.0F + 0.5F)) / 10.0;
   ImGui::Dummy({0, t.px(8)});
   const std::string code = s.code.data();
   const bool usable = !code.empty() && is_plain_text(code);
-  if (main_button(t, msg("Continue  (Enter)"), usable, !ImGui::IsAnyItemActive() && !ImGui::IsAnyItemFocused()) || (entered && usable))
+  if (main_button(t, msg("Continue  (Enter)"), usable,
+                  !ImGui::IsAnyItemActive() && !ImGui::IsAnyItemFocused()) ||
+      (entered && usable))
     s.wish = Wish::sign_in;
   if (c.practice) {
     ImGui::SameLine(0, t.px(24));
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() + (t.px(44) - ImGui::GetFrameHeight()) / 2);
     bool tutorial = s.tutorial_wanted;
-    if (ImGui::Checkbox(shown_label(msg("Two-minute tutorial first")).c_str(), &tutorial)) s.tutorial_wanted = tutorial;
+    if (ImGui::Checkbox(shown_label(msg("Two-minute tutorial first")).c_str(), &tutorial))
+      s.tutorial_wanted = tutorial;
   }
   if (entered && !usable) {
     s.focus_code = true;  // Enter would take it away

@@ -16,7 +16,7 @@
 #include "grading/records/begin.h"
 #include "grading/records/candidate_id.h"
 #include "grading/records/station_ticket.h"
-#include "scenarios/exam/other_place.h"
+#include "scenarios/exam/other_path.h"
 #include "ui/station/replay_player.h"
 
 namespace cavum::station {
@@ -27,21 +27,30 @@ bool is_ready(const std::future<T>& f) {
   return f.valid() && f.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
-/// The ticket of a candidate who typed this code, in capitals or not, a pseudonym also without its dashes.
+/// The ticket of a candidate who typed this code, in capitals or not, a pseudonym also without its
+/// dashes.
 records::HeldTicket ticket_of(const std::string& folder, const std::string& code) {
   std::string name = code;
   for (char& c : name) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  const auto path_of = [&folder](const std::string& candidate) { return fmt::format("{}/{}.ticket", folder, file_name_of(candidate)); };
+  const auto path_of = [&folder](const std::string& candidate) {
+    return fmt::format("{}/{}.ticket", folder, file_name_of(candidate));
+  };
   std::string path = path_of(name);
-  if (const std::string pseudonym = records::pseudonym_typed(code); !pseudonym.empty() && !std::filesystem::exists(path)) path = path_of(pseudonym);
+  if (const std::string pseudonym = records::pseudonym_typed(code);
+      !pseudonym.empty() && !std::filesystem::exists(path))
+    path = path_of(pseudonym);
   if (!std::filesystem::exists(path))
-    throw Error(msg("candidate '{}'", one_line(code)), msg("has no ticket here"), msg("check the code, or ask the school"));
+    throw Error(msg("candidate '{}'", one_line(code)), msg("has no ticket here"),
+                msg("check the code, or ask the school"));
   return records::read_ticket(path);
 }
 
-/// The exam bears the office's word. Without one it begins when its ticket lets it (require_promised). Nothing is asked for what the ticket does not
-/// promise: the office would take the exam for begun.
-void ask_for_word(records::HeldTicket& held, const std::function<std::string(const std::string&)>& word, SessionSetup& session) {
+/// The exam bears the office's word. Without one it begins when its ticket lets it
+/// (require_promised). Nothing is asked for what the ticket does not promise: the office would take
+/// the exam for begun.
+void ask_for_word(records::HeldTicket& held,
+                  const std::function<std::string(const std::string&)>& word,
+                  SessionSetup& session) {
   records::HeldTicket promised = held;
   promised.ticket.begun_at_ledger = false;
   records::require_promised(promised, session);
@@ -50,7 +59,9 @@ void ask_for_word(records::HeldTicket& held, const std::function<std::string(con
   static_cast<void>(records::parse_begin(said, held.ticket.public_key, msg("the office's word")));
   write_private_text_file(records::begin_path(held.path), said + "\n");
   held.begin = said;
-  std::erase_if(session.notes, [](const auto& note) { return note.first == records::k_begin_note; });  // an earlier one
+  std::erase_if(session.notes, [](const auto& note) {
+    return note.first == records::k_begin_note;
+  });  // an earlier one
   session.notes.emplace_back(records::k_begin_note, said);
 }
 
@@ -62,16 +73,22 @@ bool has_room(const std::string& path) {
   return !none && space.available > k_room_bytes;
 }
 
-std::string require_resumable(const std::string& path, const std::string& candidate, const StationDevice& device) {
+std::string require_resumable(const std::string& path, const std::string& candidate,
+                              const StationDevice& device) {
   const SessionReader session(path);
   session.require_readable();
   if (session.closed())
-    throw Error(Name{path}, msg("is closed: there is nothing to go on with"), msg("look at it with `cavum station --replay {}`", path));
+    throw Error(Name{path}, msg("is closed: there is nothing to go on with"),
+                msg("look at it with `cavum station --replay {}`", path));
   const SessionSetup setup = session.setup();
   if (setup.candidate != candidate && setup.candidate != records::pseudonym_typed(candidate))
-    throw Error(msg("candidate '{}'", one_line(candidate)), msg("did not begin this exam"), msg("type the code that it was begun with"));
-  if (parse_servo_config(setup.servo_toml, path).position_quantum_mm != device.position_quantum_mm())
-    throw Error(in_words(device.source()), msg("has another encoder than the stylus that this exam was begun with"), msg("go on with that one"));
+    throw Error(msg("candidate '{}'", one_line(candidate)), msg("did not begin this exam"),
+                msg("type the code that it was begun with"));
+  if (parse_servo_config(setup.servo_toml, path).position_quantum_mm !=
+      device.position_quantum_mm())
+    throw Error(in_words(device.source()),
+                msg("has another encoder than the stylus that this exam was begun with"),
+                msg("go on with that one"));
   return setup.candidate;
 }
 
@@ -85,7 +102,9 @@ Begun begun_so_far(const std::string& path) {
   player.show();
   const scenarios::RunnerState& at = player.shown().runner;
   const auto limit = static_cast<double>(scenarios::exam_limit_ticks(player.setup().scenario));
-  return {player.tooth(), std::max(0.0, (limit - static_cast<double>(at.ticks - at.paused_ticks)) * k_tick_s), player.shown().input.bur};
+  return {player.tooth(),
+          std::max(0.0, (limit - static_cast<double>(at.ticks - at.paused_ticks)) * k_tick_s),
+          player.shown().input.bur};
 }
 
 }  // namespace
@@ -105,7 +124,9 @@ scenarios::Scenario scenario_of(const SittingOptions& o) {
 }
 
 Sitting::Sitting(SittingOptions options, std::string candidate)
-    : options_(std::move(options)), candidate_(std::move(candidate)), device_(make_station_device(options_.device)) {
+    : options_(std::move(options)),
+      candidate_(std::move(candidate)),
+      device_(make_station_device(options_.device)) {
   scenarios::ExamOptions exam;
   exam.candidate = candidate_;
   exam.tooth_file = options_.tooth;
@@ -134,8 +155,9 @@ Sitting::Sitting(SittingOptions options, std::string candidate)
   }
   preparing_ = std::async(std::launch::async, [this, exam, held]() mutable {
     if (held) records::use_ticket(*held, exam);
-    auto setup =
-        options_.resume.empty() ? scenarios::prepare_exam(options_.scenario, exam) : scenarios::prepare_exam(SessionReader(options_.resume).setup());
+    auto setup = options_.resume.empty()
+                     ? scenarios::prepare_exam(options_.scenario, exam)
+                     : scenarios::prepare_exam(SessionReader(options_.resume).setup());
     if (ticket_ && options_.word) ask_for_word(*held, options_.word, setup->session);
     if (held) records::require_promised(*held, setup->session);
     if (!options_.resume.empty()) {
@@ -162,7 +184,8 @@ Sitting::~Sitting() {
 void Sitting::advance() {
   if (stage_ == Stage::preparing && is_ready(preparing_)) {
     setup_ = preparing_.get();
-    check_ = std::make_unique<DeviceCheck>(device_->for_check(), station_stylus_kind(options_.device.name).facts.rate_hz);
+    check_ = std::make_unique<DeviceCheck>(device_->for_check(),
+                                           station_stylus_kind(options_.device.name).facts.rate_hz);
     stage_ = Stage::checking;
   }
   if (stage_ == Stage::running) {
@@ -178,7 +201,8 @@ void Sitting::advance() {
       refused(refusal.message(), refusal.refusal());
       stage_ = Stage::unsaved;
     }
-  } else if (stage_ == Stage::unsaved && std::chrono::steady_clock::now() - last_try_ > std::chrono::seconds(2)) {
+  } else if (stage_ == Stage::unsaved &&
+             std::chrono::steady_clock::now() - last_try_ > std::chrono::seconds(2)) {
     last_try_ = std::chrono::steady_clock::now();
     if (!has_room(path_)) return;
     try {
@@ -198,7 +222,8 @@ std::string Sitting::new_path(const std::string& out) const {
   localtime_r(&now, &local);
   std::string when(32, '\0');
   when.resize(std::strftime(when.data(), when.size(), "%Y%m%d-%H%M%S", &local));
-  const std::string name = fmt::format("{}-{}-{}.cavum", file_name_of(setup_->scenario.id), file_name_of(candidate_), when);
+  const std::string name = fmt::format("{}-{}-{}.cavum", file_name_of(setup_->scenario.id),
+                                       file_name_of(candidate_), when);
   return (std::filesystem::path(out) / name).string();
 }
 
@@ -207,17 +232,21 @@ void Sitting::begin() {
   check_.reset();  // from now on the servo alone reads the device
   try {
     const Vec3 tip = device_->tip_mm();
-    const std::string first = options_.resume.empty() ? new_path(options_.out) : options_.resume, second = new_path(options_.out_if_full);
+    const std::string first = options_.resume.empty() ? new_path(options_.out) : options_.resume,
+                      second = new_path(options_.out_if_full);
     with_desk_ = std::make_unique<WithDesk>(device_->for_exam(), desk_);
     if (options_.resume.empty()) {
-      auto exam = scenarios::start_on_first_writable_disk(first, second, [&](const std::string& path) {
-        return records::begin_with_ticket(ticket_ ? &*ticket_ : nullptr, path, [&] { return scenarios::Exam::start(*setup_, path, tip); });
-      });
+      auto exam =
+          scenarios::start_on_first_writable_disk(first, second, [&](const std::string& path) {
+            return records::begin_with_ticket(ticket_ ? &*ticket_ : nullptr, path, [&] {
+              return scenarios::Exam::start(*setup_, path, tip);
+            });
+          });
       live_ = std::make_unique<scenarios::LiveExam>(*setup_, std::move(exam), *with_desk_);
     } else {
       const bool remembered = records::require_not_closed(setup_->session.notes, first);
       auto exam = scenarios::Exam::resume(*setup_, first, {source(), remembered, device_->notes()});
-      exam->set_second_place(second);
+      exam->set_second_path(second);
       live_ = std::make_unique<scenarios::LiveExam>(*setup_, std::move(exam), *with_desk_);
     }
     path_ = first;
@@ -225,7 +254,8 @@ void Sitting::begin() {
     live_->start();
   } catch (...) {
     live_.reset();
-    check_ = std::make_unique<DeviceCheck>(device_->for_check(), station_stylus_kind(options_.device.name).facts.rate_hz);
+    check_ = std::make_unique<DeviceCheck>(device_->for_check(),
+                                           station_stylus_kind(options_.device.name).facts.rate_hz);
     throw;
   }
   stage_ = Stage::running;
@@ -236,7 +266,9 @@ void Sitting::look_where_it_is_recorded() {
   const auto now = std::chrono::steady_clock::now();
   const std::string at = live_->session();
   if (at != path_) {
-    moved_ = msg("{} cannot be written: its disk is full or refuses. The whole exam is recorded at {}.", path_, at);
+    moved_ =
+        msg("{} cannot be written: its disk is full or refuses. The whole exam is recorded at {}.",
+            path_, at);
     moved_at_ = now;
     path_ = at;
   }
@@ -256,9 +288,10 @@ void Sitting::rescue() {
     }
     if (stage_ != Stage::unsaved) return;
     if (tries == 2)
-      throw Error(Name{path_}, msg("cannot be written, nor can any other place"), msg("what was on disk before can be resumed from there"));
+      throw Error(Name{path_}, msg("cannot be written, nor can any other place"),
+                  msg("what was on disk before can be resumed from there"));
     try {
-      save(tries == 0 ? "" : scenarios::rescue_place(path_));
+      save(tries == 0 ? "" : scenarios::rescue_path(path_));
     } catch (const DatabaseError& refusal) {
       refused(refusal.message(), refusal.refusal());
     }
@@ -302,7 +335,9 @@ void Sitting::end_running() {
   stage_ = Stage::unsaved;
 }
 
-Message Sitting::why_stopped() const { return report_.servo.failure.empty() ? msg("the servo was stopped") : report_.servo.failure; }
+Message Sitting::why_stopped() const {
+  return report_.servo.failure.empty() ? msg("the servo was stopped") : report_.servo.failure;
+}
 
 void Sitting::close_exam() {
   grading_ = std::async(std::launch::async, [this] {
@@ -323,9 +358,12 @@ void Sitting::save(const std::string& place) {
   scenarios::Exam& exam = live_->exam();
   if (!place.empty()) {
     const std::filesystem::path wanted(place);
-    const auto file = std::filesystem::is_directory(wanted) ? wanted / std::filesystem::path(path_).filename() : wanted;
+    const auto file = std::filesystem::is_directory(wanted)
+                          ? wanted / std::filesystem::path(path_).filename()
+                          : wanted;
     if (file.extension() != ".cavum")
-      throw Error(Name{place}, msg("is neither a folder nor a session file"), msg("name a folder, or a new file ending in .cavum"));
+      throw Error(Name{place}, msg("is neither a folder nor a session file"),
+                  msg("name a folder, or a new file ending in .cavum"));
     exam.recorder().move_to(file.string(), refusal_);
   }
   exam.recorder().flush();

@@ -1,5 +1,6 @@
-// One candidate's sitting, from the code that was typed to the sealed session: what is prepared, checked, run, graded, and in which order. Knows no
-// window: the screens show it and press its buttons, and whatever becomes of them, the session is closed or can be resumed.
+// One candidate's sitting, from the code that was typed to the sealed session: what is prepared,
+// checked, run, graded, and in which order. Knows no window: the screens show it and press its
+// buttons, and whatever becomes of them, the session is closed or can be resumed.
 #pragma once
 
 #include <chrono>
@@ -22,15 +23,18 @@ namespace cavum::station {
 
 struct SittingOptions {
   std::string scenario, tooth, model = "consistent", rubric;  ///< files as for an exam
-  std::string out;                                            ///< a session file (.cavum), or the folder for one
-  std::string out_if_full;                                    ///< the same, on another disk, for when that one refuses; may be empty
-  std::string tickets;                                        ///< folder with CODE.ticket for each candidate; empty: nobody needs one
-  std::string resume;  ///< a session to go on with, by the candidate who began it; scenario and all else are its own
+  std::string out;          ///< a session file (.cavum), or the folder for one
+  std::string out_if_full;  ///< the same, on another disk, for when that one refuses; may be empty
+  std::string tickets;      ///< folder with CODE.ticket for each candidate; empty: nobody needs one
+  std::string resume;  ///< a session to go on with, by the candidate who began it; scenario and all
+                       ///< else are its own
   scenarios::Grant grant;
   bool practice = false;
-  bool locked = false;  ///< the station fills the screen, and only the supervisor closes it; the session says so
+  bool locked = false;  ///< the station fills the screen, and only the supervisor closes it; the
+                        ///< session says so
   DeviceChoice device;
-  /// The exam office's word to begin the exam of this ticket's number; empty when the office does not answer. Waits, of the thread that prepares.
+  /// The exam office's word to begin the exam of this ticket's number; empty when the office does
+  /// not answer. Waits, of the thread that prepares.
   std::function<std::string(const std::string& ticket_nonce)> word = {};
 };
 
@@ -40,12 +44,12 @@ struct SittingOptions {
 [[nodiscard]] std::vector<Bur> read_shelf(const std::string& scenario_path);
 
 enum class Stage {
-  preparing,    ///< files are read, zones laid into the tooth
-  checking,     ///< the device is watched
-  running,      ///< the exam
-  grading,      ///< it is over, and being marked
-  unsaved,      ///< it is over or was interrupted, and the disk refuses: all is in memory until `save`
-  done,         ///< sealed, with its result
+  preparing,  ///< files are read, zones laid into the tooth
+  checking,   ///< the device is watched
+  running,    ///< the exam
+  grading,    ///< it is over, and being marked
+  unsaved,  ///< it is over or was interrupted, and the disk refuses: all is in memory until `save`
+  done,     ///< sealed, with its result
   interrupted,  ///< the device failed: the session is open and can be resumed
 };
 
@@ -58,23 +62,29 @@ struct Begun {
 
 class Sitting {
  public:
-  /// Begins to prepare, in a thread of its own. Throws Error for a device that is none, a code without a ticket where tickets are asked for,
-  /// or a session to go on with that is another candidate's, closed, or of a stylus with another encoder.
+  /// Begins to prepare, in a thread of its own. Throws Error for a device that is none, a code
+  /// without a ticket where tickets are asked for, or a session to go on with that is another
+  /// candidate's, closed, or of a stylus with another encoder.
   Sitting(SittingOptions options, std::string candidate);
   /// Stops what runs. A session that is not closed by then can be resumed.
   ~Sitting();
   Sitting(const Sitting&) = delete;
   Sitting& operator=(const Sitting&) = delete;
 
-  /// Goes on to the next stage when it is time. Often; never waits for long. Throws Error when preparing or grading failed.
+  /// Goes on to the next stage when it is time. Often; never waits for long. Throws Error when
+  /// preparing or grading failed.
   void advance();
   [[nodiscard]] Stage stage() const noexcept { return stage_; }
   /// Whether its session stays open when the station ends now.
-  [[nodiscard]] bool open() const noexcept { return stage_ == Stage::running || stage_ == Stage::interrupted || stage_ == Stage::unsaved; }
+  [[nodiscard]] bool open() const noexcept {
+    return stage_ == Stage::running || stage_ == Stage::interrupted || stage_ == Stage::unsaved;
+  }
   [[nodiscard]] const std::string& candidate() const noexcept { return candidate_; }
   [[nodiscard]] bool practice() const noexcept { return options_.practice; }
   /// Since the candidate signed in.
-  [[nodiscard]] double here_s() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - signed_in_at_).count(); }
+  [[nodiscard]] double here_s() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - signed_in_at_).count();
+  }
 
   /// From `checking` on.
   [[nodiscard]] const scenarios::ExamSetup& setup() const { return *setup_; }
@@ -82,8 +92,8 @@ class Sitting {
   [[nodiscard]] const std::optional<Begun>& begun() const noexcept { return begun_; }
   [[nodiscard]] StationDevice& device() { return *device_; }
   [[nodiscard]] DeviceSight sight() const;
-  /// From `checking` to `running`: begins to record, at the second place when the first refuses. Throws Error when that is impossible; the stage
-  /// stays.
+  /// From `checking` to `running`: begins to record, at the second place when the first refuses.
+  /// Throws Error when that is impossible; the stage stays.
   void begin();
 
   /// While `running`.
@@ -96,10 +106,12 @@ class Sitting {
   void ask_to_end();
   /// Recorded as an event of the session, see LiveExam::note; nothing while it does not run.
   void note(Event event);
-  /// The exam is left as it is: `interrupted`, or `unsaved` when the disk refuses its end; nothing while it does not run.
+  /// The exam is left as it is: `interrupted`, or `unsaved` when the disk refuses its end; nothing
+  /// while it does not run.
   void stop();
-  /// For when nobody answers any more: stops what runs, waits until what was graded is sealed, and saves what is in memory only, where it is or else
-  /// at rescue_place(). Throws Error when no place takes it.
+  /// For when nobody answers any more: stops what runs, waits until what was graded is sealed, and
+  /// saves what is in memory only, where it is or else at rescue_path(). Throws Error when no place
+  /// takes it.
   void rescue();
 
   /// When `done`.
@@ -109,8 +121,9 @@ class Sitting {
   [[nodiscard]] const scenarios::LiveReport& report() const { return report_; }
   /// Of the session, from `running` on.
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
-  /// When `unsaved`: tries again, in another place unless that is empty: a session file that does not exist yet, or a folder. Throws Error when that
-  /// is refused, too; the stage stays. By itself it tries again once there is room.
+  /// When `unsaved`: tries again, in another place unless that is empty: a session file that does
+  /// not exist yet, or a folder. Throws Error when that is refused, too; the stage stays. By itself
+  /// it tries again once there is room.
   void save(const std::string& place);
   /// For a while after it began to be recorded at the second place, and why; else empty.
   [[nodiscard]] const Message& moved() const noexcept { return moved_; }
@@ -123,7 +136,9 @@ class Sitting {
  private:
   [[nodiscard]] MotionSource source() const;
   void end_running();
-  void refused(const Message& trouble, const DiskRefusal& refusal) { trouble_ = trouble, refusal_ = refusal; }
+  void refused(const Message& trouble, const DiskRefusal& refusal) {
+    trouble_ = trouble, refusal_ = refusal;
+  }
   [[nodiscard]] Message why_stopped() const;
   void close_exam();
   [[nodiscard]] std::string new_path(const std::string& out) const;

@@ -36,7 +36,8 @@ const char* screen_name(Screen screen) noexcept {
 
 std::vector<std::string_view> screen_names() {
   std::vector<std::string_view> names;
-  for (int i = 0; i <= static_cast<int>(Screen::author_busy); ++i) names.emplace_back(screen_name(static_cast<Screen>(i)));
+  for (int i = 0; i <= static_cast<int>(Screen::author_busy); ++i)
+    names.emplace_back(screen_name(static_cast<Screen>(i)));
   return names;
 }
 

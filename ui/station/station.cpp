@@ -8,8 +8,8 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/base/said_by.h"
-#include "scenarios/exam/other_place.h"
+#include "engine/base/message_from.h"
+#include "scenarios/exam/other_path.h"
 #include "ui/parts/interrupt.h"
 #include "ui/parts/say.h"
 #include "ui/parts/scenario_words.h"
@@ -38,7 +38,8 @@ class Station {
         check_(options.sitting.device.name, options.self_check_hours.value_or(0.0)),
         window_({"Cavum", options.width, options.height, options.monitor, lock_.locked()}) {
     ui::show_texts_of(scenario_);
-    if (!options_.script.empty()) script_ = Script(read_text_file(options_.script), options_.script, options_.pictures);
+    if (!options_.script.empty())
+      script_ = Script(read_text_file(options_.script), options_.script, options_.pictures);
     usual_look();
     if (replay_) {
       make_scene(replay_->setup(), true);
@@ -57,27 +58,33 @@ class Station {
     } catch (const std::exception& e) {
       rescue();
       if (!open_session().empty())
-        throw Error(msg("station"), msg("failed during the exam ({})", said_by(e)),
-                    msg("what was done is recorded; go on with: cavum station --resume {}", open_session()));
+        throw Error(msg("station"), msg("failed during the exam ({})", message_from(e)),
+                    msg("what was done is recorded; go on with: cavum station --resume {}",
+                        open_session()));
       throw;
     }
     if (!abandoned_) rescue();
     const std::string open = open_session();
     if (open.empty()) return 0;
-    if (abandoned_) ui::say_error(msg("station: the last {} of the exam were given up", as_s(sitting_->unwritten_s(), 1)));
+    if (abandoned_)
+      ui::say_error(
+          msg("station: the last {} of the exam were given up", as_s(sitting_->unwritten_s(), 1)));
     sitting_.reset();
-    ui::say_error(
-        msg("station: was closed during the exam; what was done is recorded; go on with: cavum station --resume {} (or close it as it stands: cavum "
-            "exam --resume --end --out {})",
-            open, open));
+    ui::say_error(msg(
+        "station: was closed during the exam; what was done is recorded; go on with: cavum station --resume {} (or close it as it stands: cavum "
+        "exam --resume --end --out {})",
+        open, open));
     return 1;
   }
 
  private:
   /// Path of the session that would stay open if the window closed now.
-  [[nodiscard]] std::string open_session() const { return sitting_ && sitting_->open() ? sitting_->path() : std::string(); }
+  [[nodiscard]] std::string open_session() const {
+    return sitting_ && sitting_->open() ? sitting_->path() : std::string();
+  }
 
-  /// The window was asked to close, and nothing would be lost. Else it stays open, and asks or waits.
+  /// The window was asked to close, and nothing would be lost. Else it stays open, and asks or
+  /// waits.
   bool may_close() {
     if (!window_.closing()) return false;
     if (!abandoned_ && !lock_.lets_close(window_, state_, sitting_.get())) return false;
@@ -96,7 +103,8 @@ class Station {
     return false;
   }
 
-  /// Nobody may be there to answer: what is in memory only goes wherever there is room, and standard error says where.
+  /// Nobody may be there to answer: what is in memory only goes wherever there is room, and
+  /// standard error says where.
   void rescue() {
     if (!sitting_) return;
     const std::string first = sitting_->path();
@@ -105,7 +113,8 @@ class Station {
   }
   void tell_moved(const std::string& first) const {
     if (!first.empty() && sitting_->path() != first)
-      ui::say_error(msg("station: {} could not be written; the whole exam is saved at {}", first, sitting_->path()));
+      ui::say_error(msg("station: {} could not be written; the whole exam is saved at {}", first,
+                        sitting_->path()));
   }
 
   void frame() {
@@ -118,7 +127,8 @@ class Station {
     show(frame_s);
     window_.end_frame();
     script_.shown(state_.screen, exam_s(), state_.view.tool.tip_mm);
-    const bool is_stylus = std::exchange(state_.capture_mouse, false) && state_.screen == Screen::exam;
+    const bool is_stylus =
+        std::exchange(state_.capture_mouse, false) && state_.screen == Screen::exam;
     window_.capture_mouse(is_stylus);
     window_.walk_by_keys(!pointer_at_work());
     sound_.set(state_.screen == Screen::exam ? sitting_->sound() : ui::SoundParameters());
@@ -131,14 +141,16 @@ class Station {
     window_.rest(began, script_.pace_hz());
   }
 
-  /// Mouse and keyboard are the stylus: every key has a meaning of its own, and none walks from button to button.
+  /// Mouse and keyboard are the stylus: every key has a meaning of its own, and none walks from
+  /// button to button.
   [[nodiscard]] bool pointer_at_work() const {
-    return state_.screen == Screen::exam && sitting_ && sitting_->device().pointer() != nullptr && !state_.confirm_end && !state_.confirm_close &&
-           !state_.confirm_leave;
+    return state_.screen == Screen::exam && sitting_ && sitting_->device().pointer() != nullptr &&
+           !state_.confirm_end && !state_.confirm_close && !state_.confirm_leave;
   }
   /// A window that has less than the screens need shows smaller text, whatever was asked for.
   [[nodiscard]] static double most_scale() {
-    constexpr double k_min_width = 720.0, k_min_height = 450.0, k_min_scale = 0.6;  // pixels at scale 1
+    constexpr double k_min_width = 720.0, k_min_height = 450.0,
+                     k_min_scale = 0.6;  // pixels at scale 1
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     return std::max(k_min_scale, std::min(size.x / k_min_width, size.y / k_min_height));
   }
@@ -165,10 +177,14 @@ class Station {
     if (office_) ask_whether_to_go_on(context, lock_.locked());
   }
   static void show_screen(const ScreenContext& context) {
-    constexpr std::array k_screens = {sign_in_screen, self_check_screen, preparing_screen, device_check_screen, briefing_screen, exam_screen,
-                                      grading_screen, result_screen,     replay_screen,    trouble_screen,      save_screen};
+    constexpr std::array k_screens = {sign_in_screen,      self_check_screen, preparing_screen,
+                                      device_check_screen, briefing_screen,   exam_screen,
+                                      grading_screen,      result_screen,     replay_screen,
+                                      trouble_screen,      save_screen};
     // the author's come after these, in a window of their own (author.h)
-    if (const auto screen = static_cast<std::size_t>(context.state.screen); screen < k_screens.size()) k_screens[screen](context);
+    if (const auto screen = static_cast<std::size_t>(context.state.screen);
+        screen < k_screens.size())
+      k_screens[screen](context);
   }
 
   /// Each step of the tutorial that was done is recorded.
@@ -196,7 +212,8 @@ class Station {
           sitting_->begin();
           state_.attempts = 0;
           state_.tutorial.reset();
-          if (state_.tutorial_wanted) state_.tutorial.emplace(sitting_->device().pointer() != nullptr);
+          if (state_.tutorial_wanted)
+            state_.tutorial.emplace(sitting_->device().pointer() != nullptr);
           state_.attempt_shown_s = 0.0;
           reserve_picture_memory();
           return go_to(Screen::exam);
@@ -207,7 +224,7 @@ class Station {
         case Wish::rescue: {
           state_.rescue_failed = true;  // unless it is saved
           const std::string first = sitting_->path();
-          sitting_->save(scenarios::rescue_place(first));
+          sitting_->save(scenarios::rescue_path(first));
           tell_moved(first);
           state_.rescue_failed = false;
           close_when_sealed_ = true;
@@ -255,7 +272,8 @@ class Station {
 
   void sign_in() {
     OfficeLine::require_free(state_);
-    if (options_.self_check_hours && !(state_.screen == Screen::self_check && check_.found()) && check_.due(options_.sitting)) {
+    if (options_.self_check_hours && !(state_.screen == Screen::self_check && check_.found()) &&
+        check_.due(options_.sitting)) {
       check_.forget();
       return go_to(Screen::self_check);
     }
@@ -264,9 +282,14 @@ class Station {
     if (office_) o.word = [this](const std::string& nonce) { return office_->begin(nonce); };
     lock_.begin_sitting();
     seen_ = Stage::preparing;
-    const bool fixed = !o.tickets.empty() || !o.resume.empty();  // what is granted stands there already; the layout is the candidate's own
-    if (!fixed && state_.left_handed != scenario_.accommodations.left_handed) o.grant.left_handed = state_.left_handed;
-    if (!fixed && state_.high_contrast != scenario_.accommodations.high_contrast) o.grant.high_contrast = state_.high_contrast;
+    const bool fixed =
+        !o.tickets.empty() ||
+        !o.resume
+             .empty();  // what is granted stands there already; the layout is the candidate's own
+    if (!fixed && state_.left_handed != scenario_.accommodations.left_handed)
+      o.grant.left_handed = state_.left_handed;
+    if (!fixed && state_.high_contrast != scenario_.accommodations.high_contrast)
+      o.grant.high_contrast = state_.high_contrast;
     sitting_ = std::make_unique<Sitting>(o, state_.code.data());
     go_to(Screen::preparing);
   }
@@ -279,14 +302,17 @@ class Station {
 
   void write_report() {
     const grading::ClosedExam& closed = sitting_->closed();
-    const std::string path = std::filesystem::path(sitting_->path()).replace_extension(".html").string();
-    report::require_report_place(path);
-    report::write_closing_report(path, sitting_->path(), closed.result, *closed.graded, report::ReportReader::student);
+    const std::string path =
+        std::filesystem::path(sitting_->path()).replace_extension(".html").string();
+    report::require_report_path(path);
+    report::write_closing_report(path, sitting_->path(), closed.result, *closed.graded,
+                                 report::ReportReader::student);
     state_.message = msg("Report: {}", path);
   }
 
   void next_candidate() {
-    if (options_.sitting.out.ends_with(".cavum") || !options_.sitting.resume.empty()) return window_.ask_to_close();  // one session was asked for
+    if (options_.sitting.out.ends_with(".cavum") || !options_.sitting.resume.empty())
+      return window_.ask_to_close();  // one session was asked for
     scene_.reset();
     sitting_.reset();
     state_.code = {};
@@ -338,7 +364,8 @@ class Station {
       state_.confirm_close = std::exchange(close_when_sealed_, false);
     }
     if (now == Stage::done) go_to(Screen::result);
-    if (close_when_sealed_ && (now == Stage::done || now == Stage::interrupted)) window_.ask_to_close();
+    if (close_when_sealed_ && (now == Stage::done || now == Stage::interrupted))
+      window_.ask_to_close();
     if (now == Stage::interrupted) {
       go_to(Screen::trouble);
       state_.message = sitting_->trouble();
@@ -346,7 +373,8 @@ class Station {
   }
 
   void make_scene(const scenarios::ExamSetup& setup, bool practice) {
-    scene_ = std::make_unique<Scene>(setup.tooth.octree, setup.tooth.tissues, setup.burs, practice ? &setup.zones : nullptr);
+    scene_ = std::make_unique<Scene>(setup.tooth.octree, setup.tooth.tissues, setup.burs,
+                                     practice ? &setup.zones : nullptr);
     scene_->fix_effects(options_.effects);
     const Vec3 low = setup.zones.target_low_mm(), high = setup.zones.target_high_mm();
     state_.view = {};
@@ -354,14 +382,16 @@ class Station {
     state_.view.camera.distance_mm = 36.0F;
     state_.view.clear = practice;
     constexpr double k_below_mm = 1.5;  // of the opening: the whole crown is in the picture
-    state_.view.camera.target_mm = {static_cast<float>((low.x + high.x) / 2), static_cast<float>((low.y + high.y) / 2),
+    state_.view.camera.target_mm = {static_cast<float>((low.x + high.x) / 2),
+                                    static_cast<float>((low.y + high.y) / 2),
                                     static_cast<float>(setup.zones.opening_z_mm() - k_below_mm)};
   }
 
   void go_to(Screen screen) {
     state_.screen = screen;
     state_.message = {};
-    state_.confirm_end = state_.confirm_close = state_.rescue_failed = false;  // a question whether to leave goes on
+    state_.confirm_end = state_.confirm_close = state_.rescue_failed =
+        false;  // a question whether to leave goes on
   }
 
   StationOptions options_;

@@ -15,7 +15,8 @@ StationCheck::~StationCheck() {
 bool StationCheck::due(const SittingOptions& o) const {
   const StylusKind& kind = station_stylus_kind(device_);
   if (kind.hand != StylusHand::person || o.practice || !o.resume.empty()) return false;
-  const CheckedStylus stylus{kind.facts.id, kind.serial ? kind.serial(load_station_stylus(kind)) : std::string()};
+  const CheckedStylus stylus{kind.facts.id,
+                             kind.serial ? kind.serial(load_station_stylus(kind)) : std::string()};
   return ui::needs_check(CheckHistory(check_history_path()), stylus, hours_, read_clocks().utc_ns);
 }
 
@@ -31,11 +32,13 @@ void StationCheck::begin() {
     progress_ = p;
   };
   o.stop = [this] { return stop_.load(); };
-  check_ = std::async(std::launch::async, [this, o] { return ui::check_station_stylus(device_, o); });
+  check_ =
+      std::async(std::launch::async, [this, o] { return ui::check_station_stylus(device_, o); });
 }
 
 void StationCheck::advance() {
-  if (!check_.valid() || check_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  if (!check_.valid() || check_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+    return;
   try {
     found_ = check_.get();
   } catch (const Error& e) {
@@ -49,11 +52,13 @@ ArmProgress StationCheck::progress() const {
 }
 
 bool StationCheck::good() const noexcept {
-  return found_ && (found_->entry.verdict.outcome == CheckOutcome::learning || found_->entry.verdict.outcome == CheckOutcome::unchanged);
+  return found_ && (found_->entry.verdict.outcome == CheckOutcome::learning ||
+                    found_->entry.verdict.outcome == CheckOutcome::unchanged);
 }
 
 void StationCheck::go_on(bool by_code) const {
-  if (found_ && !good()) ui::decide_on_check(found_->stylus, true, by_code ? "supervisor" : "person", "");
+  if (found_ && !good())
+    ui::decide_on_check(found_->stylus, true, by_code ? "supervisor" : "person", "");
 }
 
 }  // namespace cavum::station

@@ -1,5 +1,5 @@
-// The station's own check of its stylus, before a candidate signs in: when it is due, the thread in which it runs, what was found, and who decided to
-// go on with it. Knows no window.
+// The station's own check of its stylus, before a candidate signs in: when it is due, the thread in
+// which it runs, what was found, and who decided to go on with it. Knows no window.
 #pragma once
 
 #include <atomic>
@@ -22,7 +22,8 @@ class StationCheck {
   StationCheck(const StationCheck&) = delete;
   StationCheck& operator=(const StationCheck&) = delete;
 
-  /// A real stylus, an exam that begins, and no check of it that is young enough. Throws Error when the station's history is damaged.
+  /// A real stylus, an exam that begins, and no check of it that is young enough. Throws Error when
+  /// the station's history is damaged.
   [[nodiscard]] bool due(const SittingOptions& options) const;
   void begin();
   /// What an earlier candidate's check found is no longer shown.
@@ -39,7 +40,8 @@ class StationCheck {
   [[nodiscard]] const std::optional<ui::SelfChecked>& found() const noexcept { return found_; }
   [[nodiscard]] const Message& error() const noexcept { return error_; }  ///< why it could not run
   [[nodiscard]] bool good() const noexcept;
-  /// With what was found; `by_code`: the supervisor gave the code. Throws Error when it cannot be kept.
+  /// With what was found; `by_code`: the supervisor gave the code. Throws Error when it cannot be
+  /// kept.
   void go_on(bool by_code) const;
 
  private:

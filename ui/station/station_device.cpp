@@ -22,7 +22,9 @@ class SimulatedHand final : public StationDevice {
   explicit SimulatedHand(DeviceChoice choice) : choice_(std::move(choice)) {
     static_cast<void>(scenarios::make_skill(choice_.operator_name, choice_.seed));
   }
-  [[nodiscard]] MotionSource source() const override { return {SourceKind::simulated_operator, choice_.operator_name}; }
+  [[nodiscard]] MotionSource source() const override {
+    return {SourceKind::simulated_operator, choice_.operator_name};
+  }
   [[nodiscard]] double position_quantum_mm() const override { return OmniModel{}.quantum_mm; }
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> notes() const override {
     return {{"operator", choice_.operator_name}, {"operator_seed", std::to_string(choice_.seed)}};
@@ -30,7 +32,8 @@ class SimulatedHand final : public StationDevice {
   void prepare(const scenarios::ExamSetup& setup) override {
     candidate_ = scenarios::make_candidate_device(setup, choice_.operator_name, choice_.seed);
     const Vec3 at = candidate_->start_mm();
-    resting_ = std::make_unique<SimulatedStylus>(OmniModel{}, HandModel{}, k_tick_s, [at](double t_s) { return resting(at, t_s); });
+    resting_ = std::make_unique<SimulatedStylus>(OmniModel{}, HandModel{}, k_tick_s,
+                                                 [at](double t_s) { return resting(at, t_s); });
   }
   [[nodiscard]] ServoDevice& for_check() override { return *resting_; }
   [[nodiscard]] ServoDevice& for_exam() override { return *candidate_; }
@@ -48,14 +51,19 @@ class SimulatedHand final : public StationDevice {
 class Mouse final : public StationDevice {
  public:
   explicit Mouse(const StylusKind& kind) : kind_(kind) {}
-  [[nodiscard]] MotionSource source() const override { return {SourceKind::pointer, kind_.facts.id}; }
-  [[nodiscard]] double position_quantum_mm() const override { return kind_.facts.position_quantum_mm; }
+  [[nodiscard]] MotionSource source() const override {
+    return {SourceKind::pointer, kind_.facts.id};
+  }
+  [[nodiscard]] double position_quantum_mm() const override {
+    return kind_.facts.position_quantum_mm;
+  }
   void prepare(const scenarios::ExamSetup& setup) override {
     constexpr double k_above_mm = 4.0;
     const scenarios::ZoneMap& zones = setup.zones;
     const Vec3 middle = (zones.target_low_mm() + zones.target_high_mm()) * 0.5;
-    const Vec3 opening =
-        zones.facing().lateral() ? middle + zones.approach() * zones.below_opening_mm(middle) : Vec3{middle.x, middle.y, zones.opening_z_mm()};
+    const Vec3 opening = zones.facing().lateral()
+                             ? middle + zones.approach() * zones.below_opening_mm(middle)
+                             : Vec3{middle.x, middle.y, zones.opening_z_mm()};
     first_.tip_mm = opening + zones.approach() * k_above_mm;
     first_.rotation = rotation_between({0, 0, 1}, zones.approach());
     stylus_ = std::make_unique<PointerStylus>(pointer_omni(), HandModel{}, k_tick_s, first_);
@@ -75,12 +83,17 @@ class Mouse final : public StationDevice {
 /// A stylus that is plugged in, with the station's pedal.
 class PluggedIn final : public StationDevice {
  public:
-  explicit PluggedIn(const DeviceChoice& choice) : source_(ui::open_live_source({choice.name, "", 1, ""})) {}
+  explicit PluggedIn(const DeviceChoice& choice)
+      : source_(ui::open_live_source({choice.name, "", 1, ""})) {}
   [[nodiscard]] MotionSource source() const override { return source_->source(); }
-  [[nodiscard]] double position_quantum_mm() const override { return source_->position_quantum_mm(); }
+  [[nodiscard]] double position_quantum_mm() const override {
+    return source_->position_quantum_mm();
+  }
   [[nodiscard]] double peak_n() const override { return source_->peak_n(); }
   [[nodiscard]] double continuous_n() const override { return source_->continuous_n(); }
-  [[nodiscard]] std::vector<std::pair<std::string, std::string>> notes() const override { return source_->notes(); }
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> notes() const override {
+    return source_->notes();
+  }
   void prepare(const scenarios::ExamSetup& setup) override { source_->begin(setup); }
   [[nodiscard]] ServoDevice& for_check() override { return source_->device(); }
   [[nodiscard]] ServoDevice& for_exam() override { return source_->device(); }
@@ -98,7 +111,8 @@ class PluggedIn final : public StationDevice {
 }  // namespace
 
 const StylusKind& station_stylus_kind(const std::string& name) {
-  return stylus_kinds().at(name, Name{"--device " + name}, {StylusHand::candidate, StylusHand::mouse, StylusHand::person});
+  return stylus_kinds().at(name, Name{"--device " + name},
+                           {StylusHand::candidate, StylusHand::mouse, StylusHand::person});
 }
 
 std::unique_ptr<StationDevice> make_station_device(const DeviceChoice& choice) {

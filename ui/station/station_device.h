@@ -1,5 +1,6 @@
-// What sits in the candidate's hand at this station: a stylus that is plugged in, with the foot pedal; the built-in operator with a simulated Omni;
-// or mouse and keyboard. One for the check before the exam, one for the exam; with most devices they are the same.
+// What sits in the candidate's hand at this station: a stylus that is plugged in, with the foot
+// pedal; the built-in operator with a simulated Omni; or mouse and keyboard. One for the check
+// before the exam, one for the exam; with most devices they are the same.
 #pragma once
 
 #include <memory>
@@ -25,10 +26,13 @@ class StationDevice {
   /// As the station signs it, unless this is practice.
   [[nodiscard]] virtual MotionSource source() const = 0;
   [[nodiscard]] virtual double position_quantum_mm() const = 0;
-  [[nodiscard]] virtual double peak_n() const { return 0.0; }        ///< that it bears; 0 = as usual
+  [[nodiscard]] virtual double peak_n() const { return 0.0; }  ///< that it bears; 0 = as usual
   [[nodiscard]] virtual double continuous_n() const { return 0.0; }  ///< the same
-  [[nodiscard]] virtual std::vector<std::pair<std::string, std::string>> notes() const { return {}; }
-  /// Once what the exam asks for is known; may take seconds. Before it only the above may be called. Throws Error.
+  [[nodiscard]] virtual std::vector<std::pair<std::string, std::string>> notes() const {
+    return {};
+  }
+  /// Once what the exam asks for is known; may take seconds. Before it only the above may be
+  /// called. Throws Error.
   virtual void prepare(const scenarios::ExamSetup& setup) = 0;
   [[nodiscard]] virtual ServoDevice& for_check() = 0;
   [[nodiscard]] virtual ServoDevice& for_exam() = 0;

@@ -27,7 +27,9 @@ struct DoorAddress {
 /// In the abstract namespace of Linux: no file, nothing to clean up.
 DoorAddress door_address() {
   std::error_code none;
-  const std::string folder = std::filesystem::weakly_canonical(std::filesystem::path(station_path("x")).parent_path(), none).string();
+  const std::string folder = std::filesystem::weakly_canonical(
+                                 std::filesystem::path(station_path("x")).parent_path(), none)
+                                 .string();
   constexpr std::size_t k_digits = 32;
   const std::string name = "cavum-station-" + to_hex(sha256(folder)).substr(0, k_digits);
   DoorAddress a;
@@ -40,7 +42,8 @@ DoorAddress door_address() {
 int door_socket() { return ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); }
 
 Error door_is_shut() {
-  return {msg("station"), msg("a locked exam runs at this station"), msg("wait until it is over, or let the supervisor end it there")};
+  return {msg("station"), msg("a locked exam runs at this station"),
+          msg("wait until it is over, or let the supervisor end it there")};
 }
 
 }  // namespace
@@ -51,7 +54,8 @@ StationDoor::StationDoor() : socket_(door_socket()) {
   const bool taken = errno == EADDRINUSE;
   if (socket_ >= 0) ::close(socket_);
   if (taken) throw door_is_shut();
-  throw Error(Name{"--kiosk"}, msg("this computer gives no socket ({})", system_words(errno)), msg("start it anew"));
+  throw Error(Name{"--kiosk"}, msg("this computer gives no socket ({})", system_words(errno)),
+              msg("start it anew"));
 }
 
 StationDoor::~StationDoor() { ::close(socket_); }

@@ -4,7 +4,9 @@ namespace cavum::station {
 namespace {
 
 /// An exam runs that counts: leaving it is recorded.
-bool examined(const Sitting* sitting) { return sitting != nullptr && sitting->stage() == Stage::running && !sitting->practice(); }
+bool examined(const Sitting* sitting) {
+  return sitting != nullptr && sitting->stage() == Stage::running && !sitting->practice();
+}
 
 void keep(const LockAttempt& a, StationState& state, Sitting* sitting) {
   constexpr int k_most = 1000;  // in one exam: who goes on and on fills no disk
@@ -22,7 +24,8 @@ void keep(const LockAttempt& a, StationState& state, Sitting* sitting) {
 void StationLock::watch(Window& window, StationState& state, Sitting* sitting) {
   for (const LockAttempt& a : lock_.look(window.input())) {
     keep(a, state, sitting);
-    if (locked() && (a.what == LockTry::screen_lost || a.what == LockTry::screen_back)) window.come_back();
+    if (locked() && (a.what == LockTry::screen_lost || a.what == LockTry::screen_back))
+      window.come_back();
   }
   constexpr auto k_again = std::chrono::milliseconds(500);
   const auto now = std::chrono::steady_clock::now();

@@ -17,7 +17,8 @@ namespace cavum::station {
 namespace {
 
 ImVec4 rgb(unsigned hex) {
-  return {static_cast<float>(hex >> 16U & 255U) / 255.0F, static_cast<float>(hex >> 8U & 255U) / 255.0F, static_cast<float>(hex & 255U) / 255.0F,
+  return {static_cast<float>(hex >> 16U & 255U) / 255.0F,
+          static_cast<float>(hex >> 8U & 255U) / 255.0F, static_cast<float>(hex & 255U) / 255.0F,
           1.0F};
 }
 
@@ -107,8 +108,9 @@ void apply_theme(const Theme& t) {
 
 namespace {
 
-constexpr ImGuiWindowFlags k_plain =
-    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+constexpr ImGuiWindowFlags k_plain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                     ImGuiWindowFlags_NoSavedSettings |
+                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
 
 /// Into the window's file, where one is wanted (Window::keep_words); until the end of this area.
 void keep_words() {
@@ -167,12 +169,16 @@ void heading_text(const Message& text) {
   pop_font();
 }
 
-bool begin_question(const Theme& theme, const char* name, const Message& heading, bool asked, bool& fresh) {
+bool begin_question(const Theme& theme, const char* name, const Message& heading, bool asked,
+                    bool& fresh) {
   fresh = asked && !ImGui::IsPopupOpen(name);
   if (fresh) ImGui::OpenPopup(name);
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
-  if (!ImGui::BeginPopupModal(name, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoTitleBar)) return false;
+  if (!ImGui::BeginPopupModal(name, nullptr,
+                              ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
+                                  ImGuiWindowFlags_NoTitleBar))
+    return false;
   keep_words();
   heading_text(heading);
   ImGui::Dummy({0, theme.px(2)});
@@ -191,13 +197,16 @@ void text_line(const Message& text) {
 
 void wrapped_text(const Message& text) {
   const std::string words = tr(text), lines = in_lines(words, ImGui::GetContentRegionAvail().x);
-  ImGui::GetWindowDrawList()->AddText(ImGui::GetCursorScreenPos(), ImGui::GetColorU32(ImGuiCol_Text), lines.c_str(), lines.c_str() + lines.size());
+  ImGui::GetWindowDrawList()->AddText(ImGui::GetCursorScreenPos(),
+                                      ImGui::GetColorU32(ImGuiCol_Text), lines.c_str(),
+                                      lines.c_str() + lines.size());
   ImGui::LogText("%s\n", words.c_str());
   ImGui::Dummy(ImGui::CalcTextSize(lines.c_str(), lines.c_str() + lines.size()));
 }
 
 std::string in_lines(const std::string& text, float width) {
-  static const std::set<std::string, std::less<>> k_units{"mm", "mm²", "mm³", "mm2", "mm3", "N", "s", "%", "rpm", "ms"};
+  static const std::set<std::string, std::less<>> k_units{"mm", "mm²", "mm³", "mm2", "mm3",
+                                                          "N",  "s",   "%",   "rpm", "ms"};
   std::string lines;
   float used = 0.0F;
   const float space = ImGui::CalcTextSize(" ").x;
@@ -205,9 +214,11 @@ std::string in_lines(const std::string& text, float width) {
     const std::size_t end = std::min(text.find_first_of(" \n", at), text.size());
     const std::string word = text.substr(at, end - at);
     std::string bare = word;
-    while (!bare.empty() && std::string_view(",.;:)").find(bare.back()) != std::string_view::npos) bare.pop_back();
+    while (!bare.empty() && std::string_view(",.;:)").find(bare.back()) != std::string_view::npos)
+      bare.pop_back();
     const bool first = lines.empty() || lines.back() == '\n',
-               unit = !first && std::isdigit(static_cast<unsigned char>(lines.back())) != 0 && k_units.contains(bare);
+               unit = !first && std::isdigit(static_cast<unsigned char>(lines.back())) != 0 &&
+                      k_units.contains(bare);
     const float wide = ImGui::CalcTextSize(word.c_str()).x;
     if (!first && used + space + wide > width) {
       // the number goes along with its unit
@@ -233,24 +244,33 @@ std::string in_lines(const std::string& text, float width) {
   return lines;
 }
 
-std::string shown_label(const Message& label) { return fmt::format("{}###{}", tr(label), label.english()); }
+std::string shown_label(const Message& label) {
+  return fmt::format("{}###{}", tr(label), label.english());
+}
 
 bool main_button(const Theme& theme, const Message& label, bool enabled, bool by_enter) {
   ImGui::PushStyleColor(ImGuiCol_Button, enabled ? theme.accent : theme.raised);
-  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, enabled ? mixed(theme.accent, theme.text, 0.25F) : theme.raised);
+  ImGui::PushStyleColor(ImGuiCol_ButtonHovered,
+                        enabled ? mixed(theme.accent, theme.text, 0.25F) : theme.raised);
   ImGui::PushStyleColor(ImGuiCol_Text, enabled ? theme.on_accent : theme.quiet);
   ImGui::BeginDisabled(!enabled);
   const bool clicked = ImGui::Button(shown_label(label).c_str(), {0, theme.px(44)});
   ImGui::EndDisabled();
   ImGui::PopStyleColor(3);
-  return enabled && (clicked || (by_enter && (key_pressed(GLFW_KEY_ENTER) || key_pressed(GLFW_KEY_KP_ENTER))));
+  return enabled &&
+         (clicked || (by_enter && (key_pressed(GLFW_KEY_ENTER) || key_pressed(GLFW_KEY_KP_ENTER))));
 }
 
-bool side_button(const Theme& theme, const Message& label, float width) { return ImGui::Button(shown_label(label).c_str(), {width, theme.px(36)}); }
+bool side_button(const Theme& theme, const Message& label, float width) {
+  return ImGui::Button(shown_label(label).c_str(), {width, theme.px(36)});
+}
 
 namespace {
 /// A question stands before the window that asks.
-bool is_covered() { return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) && !ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows); }
+bool is_covered() {
+  return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) &&
+         !ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows);
+}
 }  // namespace
 
 bool key_pressed(int key) {

@@ -1,4 +1,5 @@
-// The colours of tissues, which engine/tooth/tissues.h has, in clear light: the picture's and the key's beside it.
+// The colours of tissues, which engine/tooth/tissues.h has, in clear light: the picture's and the
+// key's beside it.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
-// The tooth on the graphics card, kept up with what was cut. Taking what changed is short and needs the tooth to stand still; making meshes of it and
-// sending them on comes afterwards. Blocks of 5x5x5 patches are one mesh each. Patches that were cut are finer than the others.
+// The tooth on the graphics card, kept up with what was cut. Taking what changed is short and needs
+// the tooth to stand still; making meshes of it and sending them on comes afterwards. Blocks of
+// 5x5x5 patches are one mesh each. Patches that were cut are finer than the others.
 #pragma once
 
 #include <vector>
@@ -19,8 +20,8 @@ class ToothDrawing {
   /// Meshes and sends on what was taken. Returns how many patches changed.
   std::size_t update();
 
-  /// What cannot be seen is left out: blocks that face away from the eye or lie outside the picture. `eye_mm`: where the eye is; `to_picture`: from
-  /// the tooth frame to the picture.
+  /// What cannot be seen is left out: blocks that face away from the eye or lie outside the
+  /// picture. `eye_mm`: where the eye is; `to_picture`: from the tooth frame to the picture.
   struct Sight {
     glm::vec3 eye_mm;
     glm::mat4 to_picture;
@@ -32,9 +33,13 @@ class ToothDrawing {
     float radius_mm;
     bool within;
   };
-  void draw_hard_tissue(const Sight& sight, DrawCount& count, const Ball& ball) const { draw(hard_, sight, count, false, &ball); }
+  void draw_hard_tissue(const Sight& sight, DrawCount& count, const Ball& ball) const {
+    draw(hard_, sight, count, false, &ball);
+  }
   /// Where it lies open: its border with the hard tissue is the same surface as the chamber's wall.
-  void draw_open_pulp(const Sight& sight, DrawCount& count) const { draw(pulp_, sight, count, true); }
+  void draw_open_pulp(const Sight& sight, DrawCount& count) const {
+    draw(pulp_, sight, count, true);
+  }
   void draw_pulp(const Sight& sight, DrawCount& count) const { draw(pulp_, sight, count); }
   /// Distance to the hard tissue, mm, negative inside; no more than two leaves either way.
   [[nodiscard]] double distance_mm(Vec3 at_mm) const;
@@ -73,8 +78,10 @@ class ToothDrawing {
     std::vector<std::uint32_t> dim;  // patches whose light changed since they were made
   };
   [[nodiscard]] Drawn made(std::uint8_t own);
-  [[nodiscard]] static Extent extent_of(std::span<const ToothVertex> vertices, std::span<const std::uint32_t> indices);
-  void draw(const Drawn& drawn, const Sight& sight, DrawCount& count, bool open_alone = false, const Ball* ball = nullptr) const;
+  [[nodiscard]] static Extent extent_of(std::span<const ToothVertex> vertices,
+                                        std::span<const std::uint32_t> indices);
+  void draw(const Drawn& drawn, const Sight& sight, DrawCount& count, bool open_alone = false,
+            const Ball* ball = nullptr) const;
   std::size_t update(Drawn& drawn);
   /// Patches touched become finer; and what is in reach of their light.
   void mark(Drawn& drawn, std::span<const std::uint32_t> touched);

@@ -13,7 +13,9 @@ constexpr int k_listed = 16;  // tissues with a colour of their own
 
 int cells_of(int leaves, int edge) { return (leaves + edge - 1) / edge; }
 std::size_t listed(std::uint8_t tissue) { return std::min<std::size_t>(tissue, k_listed - 1); }
-std::uint8_t of_255(float share) { return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(share, 0.0F, 1.0F))); }
+std::uint8_t of_255(float share) {
+  return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(share, 0.0F, 1.0F)));
+}
 
 /// Leaves around a patch.
 struct MixWindow {
@@ -23,7 +25,9 @@ struct MixWindow {
 };
 
 /// The two tissues that a place of the surface is of, by the leaves around: nearer ones count more.
-std::array<std::uint8_t, 4> tissues_at(const MixWindow& window, const std::array<double, 3>& in_leaves, std::uint8_t fallback) {
+std::array<std::uint8_t, 4> tissues_at(const MixWindow& window,
+                                       const std::array<double, 3>& in_leaves,
+                                       std::uint8_t fallback) {
   constexpr double k_wide = 2.5;  // leaves
   std::array<int, 3> first{};
   std::array<std::array<float, 5>, 3> weight{};
@@ -31,7 +35,9 @@ std::array<std::uint8_t, 4> tissues_at(const MixWindow& window, const std::array
   for (std::size_t i = 0; i < 3; ++i) {
     const double middle = in_leaves[i] - 0.5 - low[i];  // 0 = the middle of the window's first leaf
     first[i] = std::clamp(static_cast<int>(std::lround(middle)) - 2, 0, k_mix_window - 5);
-    for (int k = 0; k < 5; ++k) weight[i][static_cast<std::size_t>(k)] = static_cast<float>(std::max(0.0, k_wide - std::fabs(first[i] + k - middle)));
+    for (int k = 0; k < 5; ++k)
+      weight[i][static_cast<std::size_t>(k)] =
+          static_cast<float>(std::max(0.0, k_wide - std::fabs(first[i] + k - middle)));
   }
   std::array<float, k_listed> hard{};
   float pulp = 0, hollow = 0;
@@ -40,7 +46,8 @@ std::array<std::uint8_t, 4> tissues_at(const MixWindow& window, const std::array
       const std::size_t row =
           static_cast<std::size_t>(first[0]) +
           static_cast<std::size_t>(k_mix_window) *
-              (static_cast<std::size_t>(first[1]) + y + static_cast<std::size_t>(k_mix_window) * (static_cast<std::size_t>(first[2]) + z));
+              (static_cast<std::size_t>(first[1]) + y +
+               static_cast<std::size_t>(k_mix_window) * (static_cast<std::size_t>(first[2]) + z));
       const float of_row = weight[1][y] * weight[2][z];
       for (std::size_t x = 0; x < 5; ++x) {
         const float w = of_row * weight[0][x];
@@ -64,7 +71,8 @@ std::array<std::uint8_t, 4> tissues_at(const MixWindow& window, const std::array
   float share = hard[most] + next > 0 ? next / (hard[most] + next) : 0.0F;
   share = std::clamp(0.5F + 1.6F * (share - 0.5F), 0.0F, 1.0F);
   const float all = pulp + hollow;
-  return {static_cast<std::uint8_t>(most), static_cast<std::uint8_t>(second), of_255(share), of_255(all > 0 ? pulp / all : 0.0F)};
+  return {static_cast<std::uint8_t>(most), static_cast<std::uint8_t>(second), of_255(share),
+          of_255(all > 0 ? pulp / all : 0.0F)};
 }
 
 }  // namespace
@@ -77,7 +85,8 @@ ToothShading::ToothShading(const LeafBlocks& leaves)
     for (std::size_t l = 0; l < k_levels; ++l) {
       const int edge = k_cell << l;
       Shares& s = (*pyramid)[l];
-      s.size = {cells_of(leaves.size().x, edge), cells_of(leaves.size().y, edge), cells_of(leaves.size().z, edge)};
+      s.size = {cells_of(leaves.size().x, edge), cells_of(leaves.size().y, edge),
+                cells_of(leaves.size().z, edge)};
       s.share.assign(cells_of(s.size), 0);
     }
   const LeafBounds whole{{0, 0, 0}, leaves.size() - IVec3{1, 1, 1}};
@@ -86,7 +95,9 @@ ToothShading::ToothShading(const LeafBlocks& leaves)
 
 void ToothShading::update(const LeafBlocks& leaves, std::span<const LeafBounds> changed) {
   for (const LeafBounds& box : changed) {
-    const auto cell = [](IVec3 leaf) { return IVec3{leaf.x / k_cell, leaf.y / k_cell, leaf.z / k_cell}; };
+    const auto cell = [](IVec3 leaf) {
+      return IVec3{leaf.x / k_cell, leaf.y / k_cell, leaf.z / k_cell};
+    };
     const IVec3 low = cell(box.low), high = cell(box.high);
     count(leaves, low, high);
     halve(filled_, low, high);
@@ -121,13 +132,16 @@ void ToothShading::halve(Pyramid& pyramid, IVec3 low, IVec3 high) {
     const Shares& fine = pyramid[l - 1];
     Shares& coarse = pyramid[l];
     low = {low.x / 2, low.y / 2, low.z / 2};
-    high = {std::min(high.x / 2, coarse.size.x - 1), std::min(high.y / 2, coarse.size.y - 1), std::min(high.z / 2, coarse.size.z - 1)};
+    high = {std::min(high.x / 2, coarse.size.x - 1), std::min(high.y / 2, coarse.size.y - 1),
+            std::min(high.z / 2, coarse.size.z - 1)};
     for (int z = low.z; z <= high.z; ++z)
       for (int y = low.y; y <= high.y; ++y)
         for (int x = low.x; x <= high.x; ++x) {
           int sum = 0;
-          for (int i = 0; i < 8; ++i) sum += fine.at(2 * x + (i & 1), 2 * y + (i >> 1 & 1), 2 * z + (i >> 2));
-          coarse.share[static_cast<std::size_t>((z * coarse.size.y + y) * coarse.size.x + x)] = static_cast<std::uint8_t>(sum / 8);
+          for (int i = 0; i < 8; ++i)
+            sum += fine.at(2 * x + (i & 1), 2 * y + (i >> 1 & 1), 2 * z + (i >> 2));
+          coarse.share[static_cast<std::size_t>((z * coarse.size.y + y) * coarse.size.x + x)] =
+              static_cast<std::uint8_t>(sum / 8);
         }
   }
 }
@@ -139,35 +153,44 @@ float ToothShading::look_up(const Pyramid& pyramid, const glm::vec3& at_mm, floa
   const Shares& s = pyramid[level];
   const glm::vec3 p = (at_mm - origin_mm_) / cell - 0.5F, low = glm::floor(p), f = p - low;
   const int x = static_cast<int>(low.x), y = static_cast<int>(low.y), z = static_cast<int>(low.z);
-  const auto row = [&](int j, int k) { return static_cast<float>(s.at(x, j, k)) * (1.0F - f.x) + static_cast<float>(s.at(x + 1, j, k)) * f.x; };
+  const auto row = [&](int j, int k) {
+    return static_cast<float>(s.at(x, j, k)) * (1.0F - f.x) +
+           static_cast<float>(s.at(x + 1, j, k)) * f.x;
+  };
   const auto plane = [&](int k) { return row(y, k) * (1.0F - f.y) + row(y + 1, k) * f.y; };
   return (plane(z) * (1.0F - f.z) + plane(z + 1) * f.z) / 255.0F;
 }
 
 float ToothShading::open(const glm::vec3& at_mm, const glm::vec3& normal) const {
-  constexpr float k_side = 0.82F, k_up = 0.57F, k_wide = 0.7F;  // of a cone that leans by 55 degrees
+  constexpr float k_side = 0.82F, k_up = 0.57F,
+                  k_wide = 0.7F;  // of a cone that leans by 55 degrees
   constexpr std::array<float, 4> k_far_mm{0.25F, 0.55F, 1.1F, 2.1F};
   const glm::vec3 aside = std::fabs(normal.z) < 0.8F ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0);
   const glm::vec3 right = glm::normalize(glm::cross(aside, normal)), up = glm::cross(normal, right);
   const glm::vec3 from = at_mm + 0.75F * cell_mm_ * normal;
   const auto seen_along = [&](const glm::vec3& way) {
     float left = 1.0F;
-    for (const float far : k_far_mm) left *= 1.0F - look_up(filled_, from + far * way, k_wide * far);
+    for (const float far : k_far_mm)
+      left *= 1.0F - look_up(filled_, from + far * way, k_wide * far);
     return left;
   };
   float light = 0.36F * seen_along(normal);
-  for (const glm::vec3& side : {right, -right, up, -up}) light += 0.16F * seen_along(k_up * normal + k_side * side);
+  for (const glm::vec3& side : {right, -right, up, -up})
+    light += 0.16F * seen_along(k_up * normal + k_side * side);
   return light;
 }
 
-std::vector<ToothVertex> ToothShading::shaded(const LeafBlocks& leaves, const SurfacePatch& patch, IVec3 number, std::uint8_t own) const {
+std::vector<ToothVertex> ToothShading::shaded(const LeafBlocks& leaves, const SurfacePatch& patch,
+                                              IVec3 number, std::uint8_t own) const {
   constexpr auto k_leaves = static_cast<std::size_t>(k_mix_window) * k_mix_window * k_mix_window;
   constexpr float k_below_mm = 0.9F;
   MixWindow window{std::vector<std::uint8_t>(k_leaves), std::vector<std::int8_t>(k_leaves), {}};
   constexpr int k_lowest = 1 + k_mix_margin;
   constexpr int k_edge = SurfacePatches::k_edge;
-  window.low = {number.x * k_edge - k_lowest, number.y * k_edge - k_lowest, number.z * k_edge - k_lowest};
-  if (own == k_air) leaves.copy_cube(window.low, k_mix_window, window.tissue.data(), window.code.data());
+  window.low = {number.x * k_edge - k_lowest, number.y * k_edge - k_lowest,
+                number.z * k_edge - k_lowest};
+  if (own == k_air)
+    leaves.copy_cube(window.low, k_mix_window, window.tissue.data(), window.code.data());
   std::vector<ToothVertex> made;
   made.reserve(patch.vertices.size());
   for (const PatchVertex& v : patch.vertices) {
@@ -176,9 +199,13 @@ std::vector<ToothVertex> ToothShading::shaded(const LeafBlocks& leaves, const Su
     const auto own_tissue = static_cast<std::uint8_t>(listed(own));
     std::array<double, 3> in_leaves{};
     for (std::size_t i = 0; i < 3; ++i)
-      in_leaves[i] = (static_cast<double>(v.position_mm[i]) - static_cast<double>(origin_mm_[static_cast<int>(i)])) / leaf_mm_;
-    made.push_back({v.position_mm, v.normal, of_255(open(at, normal)), of_255(look_up(dentin_, at - k_below_mm * normal, 0.8F)),
-                    own == k_air ? tissues_at(window, in_leaves, v.tissue) : std::array<std::uint8_t, 4>{own_tissue, own_tissue, 0, 0}});
+      in_leaves[i] = (static_cast<double>(v.position_mm[i]) -
+                      static_cast<double>(origin_mm_[static_cast<int>(i)])) /
+                     leaf_mm_;
+    made.push_back({v.position_mm, v.normal, of_255(open(at, normal)),
+                    of_255(look_up(dentin_, at - k_below_mm * normal, 0.8F)),
+                    own == k_air ? tissues_at(window, in_leaves, v.tissue)
+                                 : std::array<std::uint8_t, 4>{own_tissue, own_tissue, 0, 0}});
   }
   return made;
 }

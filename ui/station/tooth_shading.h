@@ -1,6 +1,8 @@
-// What the eye needs to know of a place of the tooth's surface beyond where it is: the tissues it is of, blended over two leaves so that borders run
-// smoothly; how much of the light around reaches it (cones through the leaves, in blocks of four and larger), and whether dentin shines through from
-// below. Worked out from the leaves once and again where they change, so it costs nothing while drawing and is the same from every side.
+// What the eye needs to know of a place of the tooth's surface beyond where it is: the tissues it
+// is of, blended over two leaves so that borders run smoothly; how much of the light around reaches
+// it (cones through the leaves, in blocks of four and larger), and whether dentin shines through
+// from below. Worked out from the leaves once and again where they change, so it costs nothing
+// while drawing and is the same from every side.
 #pragma once
 
 #include <span>
@@ -17,8 +19,10 @@ class ToothShading {
   /// After leaves changed.
   void update(const LeafBlocks& leaves, std::span<const LeafBounds> changed);
 
-  /// The patch `number` (along x, y, z) for the graphics card. `own`: a tissue's own surface is all of that tissue; `k_air` = looked up.
-  [[nodiscard]] std::vector<ToothVertex> shaded(const LeafBlocks& leaves, const SurfacePatch& patch, IVec3 number, std::uint8_t own) const;
+  /// The patch `number` (along x, y, z) for the graphics card. `own`: a tissue's own surface is all
+  /// of that tissue; `k_air` = looked up.
+  [[nodiscard]] std::vector<ToothVertex> shaded(const LeafBlocks& leaves, const SurfacePatch& patch,
+                                                IVec3 number, std::uint8_t own) const;
   /// As far as a change of leaves changes the light, mm.
   static constexpr double k_reach_mm = 2.4;
 

@@ -1,4 +1,5 @@
-// The first two minutes at a station: one thing to do at a time, which counts when the person has done it, up to a first hole. Knows no window.
+// The first two minutes at a station: one thing to do at a time, which counts when the person has
+// done it, up to a first hole. Knows no window.
 #pragma once
 
 #include "engine/base/message.h"

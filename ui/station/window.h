@@ -1,5 +1,5 @@
-// One window with an OpenGL 3.3 context and Dear ImGui in it. Everything of GLFW stays behind it; keys that a script presses come in by the same
-// door as those of a keyboard.
+// One window with an OpenGL 3.3 context and Dear ImGui in it. Everything of GLFW stays behind it;
+// keys that a script presses come in by the same door as those of a keyboard.
 #pragma once
 
 #include <chrono>
@@ -14,11 +14,13 @@ struct GLFWwindow;
 
 namespace cavum::station {
 
-/// A renderer on the computer's processor takes one core and leaves the others to the servo, unless LP_NUM_THREADS says otherwise. Changes the
-/// environment, so before there are other threads; a Window asks for it too.
+/// A renderer on the computer's processor takes one core and leaves the others to the servo, unless
+/// LP_NUM_THREADS says otherwise. Changes the environment, so before there are other threads; a
+/// Window asks for it too.
 void spare_the_processor() noexcept;
-/// Takes the memory that a cavity's surface will need, here and in a renderer on the processor, as an exam begins: it does not grow any more then.
-/// The allocator keeps it, instead of giving it back at once.
+/// Takes the memory that a cavity's surface will need, here and in a renderer on the processor, as
+/// an exam begins: it does not grow any more then. The allocator keeps it, instead of giving it
+/// back at once.
 void reserve_picture_memory();
 
 [[nodiscard]] inline double seconds_since(std::chrono::steady_clock::time_point t) {
@@ -44,8 +46,8 @@ class Window {
   void begin_frame();
   /// Draws the frame's ImGui content over what was drawn and shows it, unless the window is hidden.
   void end_frame();
-  /// No more pictures than eyes need, fewer where the processor draws, which the servo shares: waits while the one that `began` then is to stay.
-  /// `hz`: so many instead, unless 0.
+  /// No more pictures than eyes need, fewer where the processor draws, which the servo shares:
+  /// waits while the one that `began` then is to stay. `hz`: so many instead, unless 0.
   void rest(std::chrono::steady_clock::time_point began, double hz = 0.0) const;
   /// Whether keys walk from button to button.
   void walk_by_keys(bool may);
@@ -66,13 +68,14 @@ class Window {
   void come_back();
   [[nodiscard]] int width() const;   ///< pixels
   [[nodiscard]] int height() const;  ///< pixels
-  /// How large text must be to look as it does at 1280 x 800: by the desktop's scale and by the window's size, 1 or more.
+  /// How large text must be to look as it does at 1280 x 800: by the desktop's scale and by the
+  /// window's size, 1 or more.
   [[nodiscard]] double screen_scale() const;
   /// The computer's processor draws: slow, and every core it takes is one less for the servo.
   [[nodiscard]] bool software() const noexcept { return software_; }
 
-  /// As if a hand did it; `key` of GLFW. It is released after this frame, unless it is `held`: then by `release`, or the next press that does not
-  /// hold it.
+  /// As if a hand did it; `key` of GLFW. It is released after this frame, unless it is `held`: then
+  /// by `release`, or the next press that does not hold it.
   void press(int key, bool held = false);
   void release(int key);
   /// The mouse from now on, pixels; `pressed`: its left button.

@@ -16,7 +16,8 @@ struct Loop {
 Loop loop_of(const FalconGeometry& g, std::size_t arm, double angle_rad, Vec3 p) noexcept {
   const SinCos leg = det_sincos(g.leg_rad[arm]), thigh = det_sincos(angle_rad);
   const Vec3 out{leg.cos, leg.sin, 0}, around{-leg.sin, leg.cos, 0};
-  const double u = dot(p, out) - g.r + g.c - g.a * thigh.cos, v = dot(p, around) - g.s + g.f, w = p.z - g.a * thigh.sin;
+  const double u = dot(p, out) - g.r + g.c - g.a * thigh.cos, v = dot(p, around) - g.s + g.f,
+               w = p.z - g.a * thigh.sin;
   const double shin2 = g.b * g.b - v * v;
   constexpr double k_min_mm2 = 1.0;
   if (!(shin2 > k_min_mm2)) return {};
@@ -34,7 +35,8 @@ bool invert(const std::array<Vec3, 3>& rows, std::array<Vec3, 3>& columns) noexc
   columns = {cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])};
   const double det = dot(rows[0], columns[0]);
   constexpr double k_least = 1e-4;
-  if (!(std::fabs(det) > k_least * length(rows[0]) * length(rows[1]) * length(rows[2]))) return false;
+  if (!(std::fabs(det) > k_least * length(rows[0]) * length(rows[1]) * length(rows[2])))
+    return false;
   for (Vec3& column : columns) column = column / det;
   return true;
 }
@@ -45,17 +47,21 @@ bool falcon_angles(const FalconGeometry& g, Vec3 p, FalconAngles& angles_rad) no
   FalconAngles found{};
   for (std::size_t arm = 0; arm < 3; ++arm) {
     const SinCos leg = det_sincos(g.leg_rad[arm]);
-    const double x = p.x * leg.cos + p.y * leg.sin - g.r + g.c, v = p.y * leg.cos - p.x * leg.sin - g.s + g.f;
+    const double x = p.x * leg.cos + p.y * leg.sin - g.r + g.c,
+                 v = p.y * leg.cos - p.x * leg.sin - g.s + g.f;
     const double shin2 = g.b * g.b - v * v;
     if (!(shin2 > 0)) return false;
     const double reach = g.links + std::sqrt(shin2);
-    // The knee is where the thigh's circle meets the shin's: across the line to the grip, on the outside.
+    // The knee is where the thigh's circle meets the shin's: across the line to the grip, on the
+    // outside.
     const double far2 = x * x + p.z * p.z, far = std::sqrt(far2);
     if (!(far > 0)) return false;
-    const double along = (far2 + g.a * g.a - reach * reach) / (2 * far), across2 = g.a * g.a - along * along;
+    const double along = (far2 + g.a * g.a - reach * reach) / (2 * far),
+                 across2 = g.a * g.a - along * along;
     if (!(across2 >= 0)) return false;
     const double across = std::sqrt(across2);
-    const double cosine = (along * x + across * p.z) / (far * g.a), sine = (along * p.z - across * x) / (far * g.a);
+    const double cosine = (along * x + across * p.z) / (far * g.a),
+                 sine = (along * p.z - across * x) / (far * g.a);
     // angle of (cosine, sine) without libm: each turn takes the third power of what is left
     double angle = cosine >= 0 ? sine : (sine >= 0 ? k_pi - sine : -k_pi - sine);
     constexpr int k_turns = 6;
@@ -69,7 +75,8 @@ bool falcon_angles(const FalconGeometry& g, Vec3 p, FalconAngles& angles_rad) no
   return true;
 }
 
-bool falcon_position(const FalconGeometry& g, const FalconAngles& angles_rad, Vec3& position_mm) noexcept {
+bool falcon_position(const FalconGeometry& g, const FalconAngles& angles_rad,
+                     Vec3& position_mm) noexcept {
   constexpr int k_max_steps = 40;
   constexpr double k_longest_step_mm = 20.0, k_close_mm = 1e-10;
   Vec3 p = position_mm;
@@ -97,7 +104,8 @@ bool falcon_position(const FalconGeometry& g, const FalconAngles& angles_rad, Ve
   return false;
 }
 
-bool falcon_jacobian(const FalconGeometry& g, const FalconAngles& angles_rad, Vec3 position_mm, std::array<Vec3, 3>& columns) noexcept {
+bool falcon_jacobian(const FalconGeometry& g, const FalconAngles& angles_rad, Vec3 position_mm,
+                     std::array<Vec3, 3>& columns) noexcept {
   std::array<Vec3, 3> rows, inverse;
   std::array<double, 3> by_angle{};
   for (std::size_t arm = 0; arm < 3; ++arm) {
@@ -111,7 +119,8 @@ bool falcon_jacobian(const FalconGeometry& g, const FalconAngles& angles_rad, Ve
   return true;
 }
 
-std::array<double, 3> falcon_torques_nmm(const std::array<Vec3, 3>& columns, Vec3 force_n) noexcept {
+std::array<double, 3> falcon_torques_nmm(const std::array<Vec3, 3>& columns,
+                                         Vec3 force_n) noexcept {
   return {dot(columns[0], force_n), dot(columns[1], force_n), dot(columns[2], force_n)};
 }
 

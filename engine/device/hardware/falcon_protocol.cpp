@@ -36,7 +36,8 @@ FalconFrame falcon_frame(const FalconCommand& command) noexcept {
   for (std::size_t motor = 0; motor < 3; ++motor) {
     const auto value = static_cast<std::uint16_t>(command.motors[motor]);
     for (std::size_t nibble = 0; nibble < 4; ++nibble)
-      frame[1 + 4 * motor + nibble] = static_cast<std::uint8_t>(k_zero + (value >> (4 * nibble) & 15));
+      frame[1 + 4 * motor + nibble] =
+          static_cast<std::uint8_t>(k_zero + (value >> (4 * nibble) & 15));
   }
   frame[13] = static_cast<std::uint8_t>(k_zero + (command.lights | (command.homing ? 1 : 0)));
   frame[14] = k_zero;
@@ -46,7 +47,8 @@ FalconFrame falcon_frame(const FalconCommand& command) noexcept {
 bool FalconParser::take(std::span<const std::uint8_t> bytes, FalconAnswer& answer) noexcept {
   bool found = false;
   for (const std::uint8_t byte : bytes) {
-    if (byte == k_first) {  // no byte of a frame's inside is one: a frame begins here, whatever came before
+    if (byte ==
+        k_first) {  // no byte of a frame's inside is one: a frame begins here, whatever came before
       if (have_ > 0) ++damaged_;
       have_ = 0;
     } else if (have_ == 0) {
@@ -63,14 +65,17 @@ bool FalconParser::take(std::span<const std::uint8_t> bytes, FalconAnswer& answe
   return found;
 }
 
-FalconAngles falcon_arm_angles(const FalconDrive& drive, const std::array<std::int16_t, 3>& encoders) noexcept {
+FalconAngles falcon_arm_angles(const FalconDrive& drive,
+                               const std::array<std::int16_t, 3>& encoders) noexcept {
   const double step_rad = 2 * k_pi / (drive.encoder_steps * drive.gear);
   FalconAngles angles{};
   for (std::size_t i = 0; i < 3; ++i) angles[i] = drive.arm_offset_rad + step_rad * encoders[i];
   return angles;
 }
 
-std::array<std::int16_t, 3> falcon_counts(const FalconDrive& drive, const std::array<double, 3>& torques_nmm, bool& cut) noexcept {
+std::array<std::int16_t, 3> falcon_counts(const FalconDrive& drive,
+                                          const std::array<double, 3>& torques_nmm,
+                                          bool& cut) noexcept {
   std::array<double, 3> counts{};
   double most = 0.0;
   cut = false;
@@ -82,7 +87,8 @@ std::array<std::int16_t, 3> falcon_counts(const FalconDrive& drive, const std::a
   cut = most > k_falcon_most_counts;
   const double share = cut ? k_falcon_most_counts / most : 1.0;
   std::array<std::int16_t, 3> whole{};
-  for (std::size_t i = 0; i < 3; ++i) whole[i] = static_cast<std::int16_t>(std::floor(counts[i] * share + 0.5));
+  for (std::size_t i = 0; i < 3; ++i)
+    whole[i] = static_cast<std::int16_t>(std::floor(counts[i] * share + 0.5));
   return whole;
 }
 

@@ -1,5 +1,6 @@
-// What a Novint Falcon with its maker's firmware says and hears: frames of 16 bytes between '<' and '>', three numbers of 16 bits as four nibbles
-// each, lowest first, every nibble carried by 'A' to 'P', then one byte of switches and one that is empty.
+// What a Novint Falcon with its maker's firmware says and hears: frames of 16 bytes between '<' and
+// '>', three numbers of 16 bits as four nibbles each, lowest first, every nibble carried by 'A' to
+// 'P', then one byte of switches and one that is empty.
 #pragma once
 
 #include <array>
@@ -45,22 +46,28 @@ class FalconParser {
   std::int64_t damaged_ = 0;
 };
 
-/// Step of the places it reports: a little above the largest way of the grip per encoder step in the middle 80 mm of its workspace.
+/// Step of the places it reports: a little above the largest way of the grip per encoder step in
+/// the middle 80 mm of its workspace.
 inline constexpr double k_falcon_quantum_mm = 0.06;
 /// The largest motor command.
 inline constexpr int k_falcon_most_counts = 4096;
 
-/// Motors and encoders. Source: S. Martin and N. Hillier, "Characterisation of the Novint Falcon haptic device for application as a robot
-/// manipulator", ACRA 2009.
+/// Motors and encoders. Source: S. Martin and N. Hillier, "Characterisation of the Novint Falcon
+/// haptic device for application as a robot manipulator", ACRA 2009.
 struct FalconDrive {
-  double encoder_steps = 1280.0;                ///< a turn of the motor: 320 slots, four edges each
-  double gear = 7.62;                           ///< turns of the motor per turn of an arm
-  double nm_per_count = 1.9835e-5;              ///< torque of the motor at rest
-  double arm_offset_rad = 35.0 * k_pi / 180.0;  ///< of the arms at encoder 0; sources say 35 to 50 degrees
+  double encoder_steps = 1280.0;    ///< a turn of the motor: 320 slots, four edges each
+  double gear = 7.62;               ///< turns of the motor per turn of an arm
+  double nm_per_count = 1.9835e-5;  ///< torque of the motor at rest
+  double arm_offset_rad =
+      35.0 * k_pi / 180.0;  ///< of the arms at encoder 0; sources say 35 to 50 degrees
 };
-[[nodiscard]] FalconAngles falcon_arm_angles(const FalconDrive& drive, const std::array<std::int16_t, 3>& encoders) noexcept;
-/// Counts for these torques of the arms; positive counts pull the arms back. Above the largest command all three shrink together, so that the force
-/// keeps its direction; `cut` says whether they did.
-[[nodiscard]] std::array<std::int16_t, 3> falcon_counts(const FalconDrive& drive, const std::array<double, 3>& torques_nmm, bool& cut) noexcept;
+[[nodiscard]] FalconAngles falcon_arm_angles(const FalconDrive& drive,
+                                             const std::array<std::int16_t, 3>& encoders) noexcept;
+/// Counts for these torques of the arms; positive counts pull the arms back. Above the largest
+/// command all three shrink together, so that the force keeps its direction; `cut` says whether
+/// they did.
+[[nodiscard]] std::array<std::int16_t, 3> falcon_counts(const FalconDrive& drive,
+                                                        const std::array<double, 3>& torques_nmm,
+                                                        bool& cut) noexcept;
 
 }  // namespace cavum

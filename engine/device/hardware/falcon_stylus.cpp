@@ -47,19 +47,23 @@ StylusKind falcon_kind() {
   StylusKind kind{.facts = falcon_facts(),
                   .placement = upright_device(k_falcon_middle_mm),
                   // sources say 35 to 50; no firmware: the file in $CAVUM_FALCON_FIRMWARE
-                  .settings = {{.key = "arm_offset_deg", .usual = 35.0, .least = 0.0, .most = 90.0}, {.key = "firmware", .usual = ""}},
+                  .settings = {{.key = "arm_offset_deg", .usual = 35.0, .least = 0.0, .most = 90.0},
+                               {.key = "firmware", .usual = ""}},
                   .usb = UsbNumbers{k_falcon_vendor, k_falcon_product}};
   kind.look = [](const StationStylus&, bool) { return look_for_falcon(); };
   kind.serial = [](const StationStylus&) { return usb_serial(k_falcon_vendor, k_falcon_product); };
   kind.open = [](const StylusOptions& options) -> std::unique_ptr<Stylus> {
-    if (const StylusLook look = look_for_falcon(); look.there && look.problem) throw Error(*look.problem);
+    if (const StylusLook look = look_for_falcon(); look.there && look.problem)
+      throw Error(*look.problem);
     return std::make_unique<FalconStylus>(options.station);
   };
   return kind;
 }
 
 FalconStylus::FalconStylus(const StationStylus& station)
-    : ThreadedStylus(station, facts_of_this_one()), firmware_(firmware_of(station)), drive_(drive_of(station)) {
+    : ThreadedStylus(station, facts_of_this_one()),
+      firmware_(firmware_of(station)),
+      drive_(drive_of(station)) {
   start([this] { run(); });
 }
 
@@ -67,7 +71,8 @@ void FalconStylus::run() {
   const UsbWatch watch;
   look_again_and_again([this] {
     FalconUsb usb;
-    set_problem(stylus_error(facts_.id, DeviceError::starting, msg("is being started"), msg("wait until its lights are on")));
+    set_problem(stylus_error(facts_.id, DeviceError::starting, msg("is being started"),
+                             msg("wait until its lights are on")));
     usb.start(firmware_);
     plugged_in_.fetch_add(1);
     serve(usb);
@@ -91,8 +96,9 @@ void FalconStylus::serve(FalconUsb& usb) {
   FalconCommand command{.lights = k_falcon_red, .homing = true};
   Vec3 at = k_falcon_middle_mm;
   int silent = 0;
-  bool said_homing = false, said_ready = false;
-  static_cast<void>(ask_for_fifo(69));  // as the servo, where the system allows it; its periods are in the health either way
+  bool reported_homing = false, reported_ready = false;
+  static_cast<void>(ask_for_fifo(
+      69));  // as the servo, where the system allows it; its periods are in the health either way
   ask_for_sharp_timers();
   for (std::int64_t due = monotonic_ns();; sleep_until(due)) {
     if (is_to_stop()) break;
@@ -102,33 +108,38 @@ void FalconStylus::serve(FalconUsb& usb) {
     if (heard == FalconUsb::Heard::silence && ++silent < k_max_silent) continue;
     if (heard != FalconUsb::Heard::answer) {
       unplugged_.fetch_add(1);
-      set_problem(stylus_error(facts_.id, DeviceError::lost, msg("was unplugged, or is silent"), msg("plug in its USB cable and its power supply")));
+      set_problem(stylus_error(facts_.id, DeviceError::lost, msg("was unplugged, or is silent"),
+                               msg("plug in its USB cable and its power supply")));
       return;
     }
     silent = 0;
     if (answer.homed != k_all_homed) {
       command = {.lights = k_falcon_red, .homing = true};
-      said_ready = false;
-      if (!std::exchange(said_homing, true))
-        set_problem(stylus_error(facts_.id, DeviceError::needs_homing, msg("does not know its place yet"),
-                                 msg("pull its grip out as far as it goes and push it in, until the light is no longer red")));
+      reported_ready = false;
+      if (!std::exchange(reported_homing, true))
+        set_problem(stylus_error(
+            facts_.id, DeviceError::needs_homing, msg("does not know its place yet"),
+            msg("pull its grip out as far as it goes and push it in, until the light is no longer red")));
       continue;
     }
     const FalconAngles angles = falcon_arm_angles(drive_, answer.encoders);
     Vec3 found = at;
-    if (!falcon_position(geometry_, angles, found) && (found = k_falcon_middle_mm, !falcon_position(geometry_, angles, found))) {
+    if (!falcon_position(geometry_, angles, found) &&
+        (found = k_falcon_middle_mm, !falcon_position(geometry_, angles, found))) {
       command = {.lights = k_falcon_blue};
       continue;  // no such place: the encoders lie, and nothing is fresh
     }
     at = found;
-    said_homing = false;
-    const auto buttons = static_cast<std::uint16_t>(((answer.buttons & 1) != 0 ? k_button_1 : 0) | ((answer.buttons & 14) != 0 ? k_button_2 : 0));
+    reported_homing = false;
+    const auto buttons = static_cast<std::uint16_t>(((answer.buttons & 1) != 0 ? k_button_1 : 0) |
+                                                    ((answer.buttons & 14) != 0 ? k_button_2 : 0));
     put({at, {}, buttons, monotonic_ns()});
-    if (!std::exchange(said_ready, true)) set_problem({});
+    if (!std::exchange(reported_ready, true)) set_problem({});
     command = {.motors = motors(angles, at), .lights = k_falcon_green};
   }
   FalconAnswer ignored;
-  static_cast<void>(usb.exchange({.lights = 0}, ignored, k_patience_ms));  // no force is left behind
+  static_cast<void>(
+      usb.exchange({.lights = 0}, ignored, k_patience_ms));  // no force is left behind
 }
 
 }  // namespace cavum

@@ -1,5 +1,6 @@
-// A Novint Falcon as a stylus: a thread of its own exchanges a frame with it each millisecond, turns encoders into a place and forces into motor
-// commands, and looks for it again when it was unplugged. The servo takes the latest place without waiting.
+// A Novint Falcon as a stylus: a thread of its own exchanges a frame with it each millisecond,
+// turns encoders into a place and forces into motor commands, and looks for it again when it was
+// unplugged. The servo takes the latest place without waiting.
 #pragma once
 
 #include <string>
@@ -11,7 +12,8 @@ namespace cavum {
 
 class FalconStylus final : public ThreadedStylus {
  public:
-  /// Waits for no device: one that is not there yet is taken when it comes, and homed (the health says so).
+  /// Waits for no device: one that is not there yet is taken when it comes, and homed (the health
+  /// says so).
   explicit FalconStylus(const StationStylus& station);
   ~FalconStylus() override { stop(); }
   FalconStylus(const FalconStylus&) = delete;
@@ -28,7 +30,8 @@ class FalconStylus final : public ThreadedStylus {
   const FalconDrive drive_;
 };
 
-/// Its record. Peak: 2 lbf, as its maker says; continuous: not published, assumed. Reach: half of the maker's 4 inches.
+/// Its record. Peak: 2 lbf, as its maker says; continuous: not published, assumed. Reach: half of
+/// the maker's 4 inches.
 [[nodiscard]] StylusKind falcon_kind();
 
 }  // namespace cavum

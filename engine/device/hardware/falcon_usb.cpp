@@ -15,10 +15,13 @@ namespace cavum {
 namespace {
 
 constexpr unsigned char k_out = 0x02, k_in = 0x81;
-constexpr int k_packet_bytes = 64, k_status_bytes = 2;  // each packet of the chip begins with its two status bytes
+constexpr int k_packet_bytes = 64,
+              k_status_bytes = 2;  // each packet of the chip begins with its two status bytes
 constexpr unsigned k_patience_ms = 1000;
 
-Error falcon_error(DeviceError code, Message problem, Message advice) { return stylus_error("falcon", code, std::move(problem), std::move(advice)); }
+Error falcon_error(DeviceError code, Message problem, Message advice) {
+  return stylus_error("falcon", code, std::move(problem), std::move(advice));
+}
 
 // Requests of the FTDI chip and their values.
 enum : int { k_reset = 0, k_modem = 1, k_flow = 2, k_baud = 3, k_data = 4, k_latency = 9 };
@@ -30,7 +33,8 @@ struct Context {
   libusb_context* context = nullptr;
   Context() {
     if (libusb_init(&context) != 0)
-      throw falcon_error(DeviceError::usb_stopped, msg("libusb does not start"), msg("look whether /dev/bus/usb is there"));
+      throw falcon_error(DeviceError::usb_stopped, msg("libusb does not start"),
+                         msg("look whether /dev/bus/usb is there"));
   }
   ~Context() {
     if (context != nullptr) libusb_exit(context);
@@ -49,16 +53,22 @@ libusb_device_handle* open_first(libusb_context* context, bool& there) {
   there = false;
   for (ssize_t i = 0; i < count && handle == nullptr; ++i) {
     libusb_device_descriptor d{};
-    if (libusb_get_device_descriptor(list[i], &d) != 0 || d.idVendor != k_falcon_vendor || d.idProduct != k_falcon_product) continue;
+    if (libusb_get_device_descriptor(list[i], &d) != 0 || d.idVendor != k_falcon_vendor ||
+        d.idProduct != k_falcon_product)
+      continue;
     there = true;
     error = libusb_open(list[i], &handle);
   }
   if (count >= 0) libusb_free_device_list(list, 1);
   if (!there)
-    throw falcon_error(DeviceError::not_there, msg("no Novint Falcon is plugged in"), msg("plug in its USB cable and its own power supply"));
+    throw falcon_error(DeviceError::not_there, msg("no Novint Falcon is plugged in"),
+                       msg("plug in its USB cable and its own power supply"));
   if (error == LIBUSB_ERROR_ACCESS)
-    throw falcon_error(DeviceError::not_permitted, msg("may not be opened"), udev_advice(k_falcon_vendor, k_falcon_product, false));
-  if (error != 0) throw falcon_error(DeviceError::refuses, msg("does not open ({})", libusb_error_name(error)), msg("plug it in again"));
+    throw falcon_error(DeviceError::not_permitted, msg("may not be opened"),
+                       udev_advice(k_falcon_vendor, k_falcon_product, false));
+  if (error != 0)
+    throw falcon_error(DeviceError::refuses, msg("does not open ({})", libusb_error_name(error)),
+                       msg("plug it in again"));
   return handle;
 }
 
@@ -87,10 +97,12 @@ FalconUsb::FalconUsb() {
   Context context;
   bool there = false;
   device_ = open_first(context.context, there);
-  static_cast<void>(libusb_set_auto_detach_kernel_driver(device_, 1));  // a serial port driver may hold it; not every system can
+  static_cast<void>(libusb_set_auto_detach_kernel_driver(
+      device_, 1));  // a serial port driver may hold it; not every system can
   if (const int error = libusb_claim_interface(device_, 0); error != 0) {
     libusb_close(device_);
-    throw falcon_error(DeviceError::in_use, msg("is in use ({})", libusb_error_name(error)), msg("close the other program that drives it"));
+    throw falcon_error(DeviceError::in_use, msg("is in use ({})", libusb_error_name(error)),
+                       msg("close the other program that drives it"));
   }
   context_ = context.release();
 }
@@ -103,31 +115,39 @@ FalconUsb::~FalconUsb() {
 
 void FalconUsb::control(int request, int value) {
   constexpr std::uint8_t k_vendor_out = 0x40;
-  if (const int error = libusb_control_transfer(device_, k_vendor_out, static_cast<std::uint8_t>(request), static_cast<std::uint16_t>(value), 0,
-                                                nullptr, 0, k_patience_ms);
+  if (const int error =
+          libusb_control_transfer(device_, k_vendor_out, static_cast<std::uint8_t>(request),
+                                  static_cast<std::uint16_t>(value), 0, nullptr, 0, k_patience_ms);
       error < 0)
-    throw falcon_error(DeviceError::refuses, msg("its USB chip refuses a setting ({})", libusb_error_name(error)), msg("plug it in again"));
+    throw falcon_error(DeviceError::refuses,
+                       msg("its USB chip refuses a setting ({})", libusb_error_name(error)),
+                       msg("plug it in again"));
 }
 
 void FalconUsb::send(std::span<const std::uint8_t> bytes) {
   int sent = 0;
-  const int error =
-      libusb_bulk_transfer(device_, k_out, const_cast<unsigned char*>(bytes.data()), static_cast<int>(bytes.size()), &sent, k_patience_ms);
+  const int error = libusb_bulk_transfer(device_, k_out, const_cast<unsigned char*>(bytes.data()),
+                                         static_cast<int>(bytes.size()), &sent, k_patience_ms);
   if (error != 0 || sent != static_cast<int>(bytes.size()))
-    throw falcon_error(DeviceError::refuses, msg("does not take what is sent ({})", libusb_error_name(error)), msg("plug it in again"));
+    throw falcon_error(DeviceError::refuses,
+                       msg("does not take what is sent ({})", libusb_error_name(error)),
+                       msg("plug it in again"));
 }
 
 std::vector<std::uint8_t> FalconUsb::hear(int patience_ms) {
   std::array<std::uint8_t, k_packet_bytes> packet{};
   int got = 0;
-  const int error = libusb_bulk_transfer(device_, k_in, packet.data(), k_packet_bytes, &got, static_cast<unsigned>(patience_ms));
+  const int error = libusb_bulk_transfer(device_, k_in, packet.data(), k_packet_bytes, &got,
+                                         static_cast<unsigned>(patience_ms));
   if (error != 0 && error != LIBUSB_ERROR_TIMEOUT)
-    throw falcon_error(DeviceError::lost, msg("was lost ({})", libusb_error_name(error)), msg("plug it in again"));
+    throw falcon_error(DeviceError::lost, msg("was lost ({})", libusb_error_name(error)),
+                       msg("plug it in again"));
   if (got <= k_status_bytes) return {};
   return {packet.begin() + k_status_bytes, packet.begin() + got};
 }
 
-void FalconUsb::expect(std::span<const std::uint8_t> wanted, const Message& silent, const Message& otherwise) {
+void FalconUsb::expect(std::span<const std::uint8_t> wanted, const Message& silent,
+                       const Message& otherwise) {
   using Clock = std::chrono::steady_clock;
   const auto until = Clock::now() + std::chrono::milliseconds(k_patience_ms);
   std::vector<std::uint8_t> heard;
@@ -136,7 +156,8 @@ void FalconUsb::expect(std::span<const std::uint8_t> wanted, const Message& sile
     heard.insert(heard.end(), more.begin(), more.end());
   }
   if (heard.size() < wanted.size() || !std::equal(wanted.begin(), wanted.end(), heard.begin()))
-    throw falcon_error(heard.empty() ? DeviceError::silent : DeviceError::wrong_firmware, heard.empty() ? silent : otherwise,
+    throw falcon_error(heard.empty() ? DeviceError::silent : DeviceError::wrong_firmware,
+                       heard.empty() ? silent : otherwise,
                        msg("take it off its power supply for a moment, and begin again"));
 }
 
@@ -152,7 +173,8 @@ bool FalconUsb::answers() {
   FalconAnswer answer;
   for (int i = 0; i < k_tries; ++i) {
     const Heard heard = exchange({}, answer, k_try_ms);
-    if (heard == Heard::gone) throw falcon_error(DeviceError::lost, msg("was lost"), msg("plug it in again"));
+    if (heard == Heard::gone)
+      throw falcon_error(DeviceError::lost, msg("was lost"), msg("plug it in again"));
     if (heard == Heard::answer) return true;
   }
   return false;
@@ -169,7 +191,8 @@ void FalconUsb::start(const std::string& firmware) {
   load({bytes.begin(), bytes.end()});
   speak_normally();
   if (!answers())
-    throw falcon_error(DeviceError::wrong_firmware, msg("does not run with {}", firmware), msg("name the firmware of its maker's driver"));
+    throw falcon_error(DeviceError::wrong_firmware, msg("does not run with {}", firmware),
+                       msg("name the firmware of its maker's driver"));
   loaded_ = true;
 }
 
@@ -186,32 +209,45 @@ void FalconUsb::load(const std::vector<std::uint8_t>& firmware) {
   control(k_flow, 0);
   for (const int lines : {k_rts_off, k_dtr_off, k_dtr_on}) control(k_modem, lines);
   send(k_who);
-  expect(k_loader, msg("is silent when its loader is called"), msg("answers something else when its loader is called"));
+  expect(k_loader, msg("is silent when its loader is called"),
+         msg("answers something else when its loader is called"));
   control(k_modem, k_dtr_off);
   control(k_baud, k_140000_baud);
   send(k_ready);
-  expect(k_ready, msg("is silent when the loading begins"), msg("answers something else when the loading begins"));
+  expect(k_ready, msg("is silent when the loading begins"),
+         msg("answers something else when the loading begins"));
   for (std::size_t at = 0; at < firmware.size(); at += k_piece_bytes) {
-    const auto piece = std::span(firmware).subspan(at, std::min(k_piece_bytes, firmware.size() - at));
+    const auto piece =
+        std::span(firmware).subspan(at, std::min(k_piece_bytes, firmware.size() - at));
     send(piece);
-    expect(piece, msg("is silent while the firmware is loaded"),
-           msg("answers something else while the firmware is loaded"));  // it says back what it heard
+    expect(
+        piece, msg("is silent while the firmware is loaded"),
+        msg("answers something else while the firmware is loaded"));  // it says back what it heard
   }
 }
 
-FalconUsb::Heard FalconUsb::exchange(const FalconCommand& command, FalconAnswer& answer, int patience_ms) noexcept {
+FalconUsb::Heard FalconUsb::exchange(const FalconCommand& command, FalconAnswer& answer,
+                                     int patience_ms) noexcept {
   using Clock = std::chrono::steady_clock;
   FalconFrame frame = falcon_frame(command);
   int moved = 0;
-  int error = libusb_bulk_transfer(device_, k_out, frame.data(), k_falcon_frame_bytes, &moved, static_cast<unsigned>(patience_ms));
-  const auto gone = [](int e) { return e == LIBUSB_ERROR_NO_DEVICE || e == LIBUSB_ERROR_IO || e == LIBUSB_ERROR_PIPE || e == LIBUSB_ERROR_OTHER; };
+  int error = libusb_bulk_transfer(device_, k_out, frame.data(), k_falcon_frame_bytes, &moved,
+                                   static_cast<unsigned>(patience_ms));
+  const auto gone = [](int e) {
+    return e == LIBUSB_ERROR_NO_DEVICE || e == LIBUSB_ERROR_IO || e == LIBUSB_ERROR_PIPE ||
+           e == LIBUSB_ERROR_OTHER;
+  };
   if (gone(error)) return Heard::gone;
   const auto until = Clock::now() + std::chrono::milliseconds(patience_ms);
   std::array<std::uint8_t, k_packet_bytes> packet{};
   do {
-    error = libusb_bulk_transfer(device_, k_in, packet.data(), k_packet_bytes, &moved, static_cast<unsigned>(patience_ms));
+    error = libusb_bulk_transfer(device_, k_in, packet.data(), k_packet_bytes, &moved,
+                                 static_cast<unsigned>(patience_ms));
     if (gone(error)) return Heard::gone;
-    if (moved > k_status_bytes && parser_.take(std::span(packet).subspan(k_status_bytes, static_cast<std::size_t>(moved - k_status_bytes)), answer))
+    if (moved > k_status_bytes &&
+        parser_.take(std::span(packet).subspan(k_status_bytes,
+                                               static_cast<std::size_t>(moved - k_status_bytes)),
+                     answer))
       return Heard::answer;
   } while (Clock::now() < until);
   return Heard::silence;

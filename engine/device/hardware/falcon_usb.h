@@ -1,5 +1,5 @@
-// The wire to a Novint Falcon: its FTDI chip over libusb, the loading of its firmware, and the exchange of one frame for one answer. Blocks; it
-// belongs to a thread of its own.
+// The wire to a Novint Falcon: its FTDI chip over libusb, the loading of its firmware, and the
+// exchange of one frame for one answer. Blocks; it belongs to a thread of its own.
 #pragma once
 
 #include <memory>
@@ -20,8 +20,8 @@ inline constexpr std::uint16_t k_falcon_vendor = 0x0403, k_falcon_product = 0xcb
 /// Whether one is plugged in, and may be opened.
 [[nodiscard]] StylusLook look_for_falcon();
 
-/// libusb watches what is plugged in as long as anybody uses it. Held between one search and the next, it need not begin anew each time, and misses
-/// nothing in between.
+/// libusb watches what is plugged in as long as anybody uses it. Held between one search and the
+/// next, it need not begin anew each time, and misses nothing in between.
 class UsbWatch {
  public:
   UsbWatch() noexcept;  ///< where libusb does not start, the search says so
@@ -35,16 +35,19 @@ class UsbWatch {
 
 class FalconUsb {
  public:
-  /// Opens the first Falcon. Throws Error when there is none, or it may not be opened (with the udev rule).
+  /// Opens the first Falcon. Throws Error when there is none, or it may not be opened (with the
+  /// udev rule).
   FalconUsb();
   ~FalconUsb();
   FalconUsb(const FalconUsb&) = delete;
   FalconUsb& operator=(const FalconUsb&) = delete;
 
-  /// Makes it answer: loads the firmware in the file `firmware` unless it runs already. Throws Error when there is none, it is no such file, or the
-  /// Falcon does not take it.
+  /// Makes it answer: loads the firmware in the file `firmware` unless it runs already. Throws
+  /// Error when there is none, it is no such file, or the Falcon does not take it.
   void start(const std::string& firmware);
-  [[nodiscard]] bool loaded() const noexcept { return loaded_; }  ///< `start` had to load the firmware
+  [[nodiscard]] bool loaded() const noexcept {
+    return loaded_;
+  }  ///< `start` had to load the firmware
 
   enum class Heard { answer, silence, gone };
   /// Sends `command` and waits for its answer.
@@ -56,7 +59,8 @@ class FalconUsb {
   void send(std::span<const std::uint8_t> bytes);
   /// What came within `patience_ms`, without the status bytes of the chip; may be nothing.
   std::vector<std::uint8_t> hear(int patience_ms);
-  void expect(std::span<const std::uint8_t> wanted, const Message& silent, const Message& otherwise);
+  void expect(std::span<const std::uint8_t> wanted, const Message& silent,
+              const Message& otherwise);
   bool answers();
   void speak_normally();
   void load(const std::vector<std::uint8_t>& firmware);

@@ -1,5 +1,5 @@
-// The line to the service of a Haply Inverse3: a WebSocket on this computer, over Boost.Beast. Every call ends within its patience; it belongs to a
-// thread of its own.
+// The line to the service of a Haply Inverse3: a WebSocket on this computer, over Boost.Beast.
+// Every call ends within its patience; it belongs to a thread of its own.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ class Inverse3Link {
 
   /// Throws Error when it is not taken in time, or the line is cut.
   void send(const std::string& text, double patience_s);
-  /// The next whole message; false when none came in time: half of one waits for its rest. Throws Error when the line is cut, and for one that is no
-  /// text or larger than k_inverse3_largest.
+  /// The next whole message; false when none came in time: half of one waits for its rest. Throws
+  /// Error when the line is cut, and for one that is no text or larger than k_inverse3_largest.
   [[nodiscard]] bool hear(std::string& text, double patience_s);
 
  private:

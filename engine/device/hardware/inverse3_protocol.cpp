@@ -15,8 +15,9 @@ namespace {
 using nlohmann::json;
 
 [[noreturn]] void refuse(const Message& what) {
-  throw inverse3_error(DeviceError::malformed_message, msg("the service sent {}", what),
-                       msg("start the Haply Inverse Service again; docs/inverse3.md says what is expected of it"));
+  throw inverse3_error(
+      DeviceError::malformed_message, msg("the service sent {}", what),
+      msg("start the Haply Inverse Service again; docs/inverse3.md says what is expected of it"));
 }
 
 double number_in(const json& j, const char* key) {
@@ -36,10 +37,12 @@ std::optional<bool> truth_in(const json& j, const char* key) {
 std::string id_in(const json& j) {
   std::string id = text_in(j, "device_id");
   const auto is_plain = [](char c) {
-    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '_' || c == ':';
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' ||
+           c == '_' || c == ':';
   };
   constexpr std::size_t k_longest = 64;
-  if (id.empty() || id.size() > k_longest || !std::all_of(id.begin(), id.end(), is_plain)) refuse(msg("a device without an id that can be used"));
+  if (id.empty() || id.size() > k_longest || !std::all_of(id.begin(), id.end(), is_plain))
+    refuse(msg("a device without an id that can be used"));
   return id;
 }
 
@@ -104,8 +107,9 @@ Inverse3Message parse_inverse3(std::string_view text) {
 
 std::string inverse3_command(const std::string& id, Vec3 force_n, bool vector) {
   constexpr int k_digits = 4;
-  return R"({"inverse3":[{"device_id":")" + id + R"(","commands":{"set_cursor_force":{")" + (vector ? "vector" : "values") + R"(":{"x":)" +
-         fixed(force_n.x, k_digits) + R"(,"y":)" + fixed(force_n.y, k_digits) + R"(,"z":)" + fixed(force_n.z, k_digits) + "}}}}]}";
+  return R"({"inverse3":[{"device_id":")" + id + R"(","commands":{"set_cursor_force":{")" +
+         (vector ? "vector" : "values") + R"(":{"x":)" + fixed(force_n.x, k_digits) + R"(,"y":)" +
+         fixed(force_n.y, k_digits) + R"(,"z":)" + fixed(force_n.z, k_digits) + "}}}}]}";
 }
 
 }  // namespace cavum

@@ -1,5 +1,6 @@
-// What the service of a Haply Inverse3 says and is told: JSON texts, one state for each command. Metres and newtons there, mm and N here; quaternions
-// turn from the grip's axes to the device's. Sources, and what of them was never seen on a real one: docs/inverse3.md.
+// What the service of a Haply Inverse3 says and is told: JSON texts, one state for each command.
+// Metres and newtons there, mm and N here; quaternions turn from the grip's axes to the device's.
+// Sources, and what of them was never seen on a real one: docs/inverse3.md.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +29,8 @@ struct Inverse3Grip {
 };
 
 struct Inverse3Message {
-  bool names_session = false;  ///< only the first one: the service is 3.5 or later, and takes forces as `vector`
+  bool names_session =
+      false;  ///< only the first one: the service is 3.5 or later, and takes forces as `vector`
   std::vector<Inverse3Device> devices;
   std::vector<Inverse3Grip> grips;  ///< wireless ones first
 };
@@ -38,9 +40,11 @@ struct Inverse3Message {
 /// Largest text that is taken, bytes: twenty devices with all their settings have some 40,000.
 inline constexpr std::size_t k_inverse3_largest = 64U << 10;
 
-/// Throws Error for what is no such message: no JSON, too large or too deep, an id that is no word, a place beyond 2 m, a number that is none.
+/// Throws Error for what is no such message: no JSON, too large or too deep, an id that is no word,
+/// a place beyond 2 m, a number that is none.
 [[nodiscard]] Inverse3Message parse_inverse3(std::string_view text);
-/// The command "push with `force_n`, N, until the next". `vector`: in the form of 3.5. `id` as parse_inverse3 gave it.
+/// The command "push with `force_n`, N, until the next". `vector`: in the form of 3.5. `id` as
+/// parse_inverse3 gave it.
 [[nodiscard]] std::string inverse3_command(const std::string& id, Vec3 force_n, bool vector);
 
 }  // namespace cavum

@@ -11,7 +11,9 @@ namespace {
 
 constexpr double k_patience_s = 0.5;  // for a service on this computer
 
-std::uint16_t port_of(const StationStylus& station) { return static_cast<std::uint16_t>(station.number("port")); }
+std::uint16_t port_of(const StationStylus& station) {
+  return static_cast<std::uint16_t>(station.number("port"));
+}
 
 template <class T>
 List ids_of(const std::vector<T>& all) {
@@ -22,7 +24,8 @@ List ids_of(const std::vector<T>& all) {
 
 /// The one whose id is `wanted`, or the only one there is. Throws Error.
 template <class T>
-const T& chosen(const std::vector<T>& all, const std::string& wanted, const Message& what, const std::string& key) {
+const T& chosen(const std::vector<T>& all, const std::string& wanted, const Message& what,
+                const std::string& key) {
   if (all.empty())
     throw inverse3_error(DeviceError::not_there, msg("the service knows of no {}", what),
                          msg("plug it in, switch it on, and look whether Haply Hub shows it"));
@@ -91,7 +94,8 @@ const Quat& tool_to_grip() {
 /// No force is left behind, however the line ends.
 class NoForceAtEnd {
  public:
-  NoForceAtEnd(Inverse3Link& link, std::string command) : link_(link), command_(std::move(command)) {}
+  NoForceAtEnd(Inverse3Link& link, std::string command)
+      : link_(link), command_(std::move(command)) {}
   ~NoForceAtEnd() {
     try {
       link_.send(command_, Inverse3Stylus::k_silent_after_s);
@@ -109,13 +113,15 @@ class NoForceAtEnd {
 }  // namespace
 
 StylusKind inverse3_kind() {
-  const Vec3 middle_mm{0, -120, 150};  // where the cursor rests in its maker's examples; x to the right, y away from the candidate, z up
+  const Vec3 middle_mm{0, -120, 150};  // where the cursor rests in its maker's examples; x to the
+                                       // right, y away from the candidate, z up
   Placement placement;
   placement.offset_mm = Vec3{} - middle_mm;
-  StylusKind kind{
-      .facts = inverse3_facts(),
-      .placement = placement,
-      .settings = {{.key = "port", .usual = 10001.0, .least = 1.0, .most = 65535.0}, {.key = "device", .usual = ""}, {.key = "grip", .usual = ""}}};
+  StylusKind kind{.facts = inverse3_facts(),
+                  .placement = placement,
+                  .settings = {{.key = "port", .usual = 10001.0, .least = 1.0, .most = 65535.0},
+                               {.key = "device", .usual = ""},
+                               {.key = "grip", .usual = ""}}};
   kind.look = [](const StationStylus& station, bool) {
     StylusLook look;
     try {
@@ -126,11 +132,14 @@ StylusKind inverse3_kind() {
     return look;
   };
   kind.serial = id_if_there;
-  kind.open = [](const StylusOptions& options) -> std::unique_ptr<Stylus> { return std::make_unique<Inverse3Stylus>(options.station); };
+  kind.open = [](const StylusOptions& options) -> std::unique_ptr<Stylus> {
+    return std::make_unique<Inverse3Stylus>(options.station);
+  };
   return kind;
 }
 
-Inverse3Stylus::Inverse3Stylus(const StationStylus& station) : ThreadedStylus(station, facts_of_this_one(station)) {
+Inverse3Stylus::Inverse3Stylus(const StationStylus& station)
+    : ThreadedStylus(station, facts_of_this_one(station)) {
   start([this] { run(); });
 }
 
@@ -143,7 +152,7 @@ void Inverse3Stylus::run() {
 
 void Inverse3Stylus::lose() {
   if (!std::exchange(lost_, true)) unplugged_.fetch_add(1);
-  knows_its_place_ = false;
+  knows_its_position_ = false;
   meter_.pause();
 }
 
@@ -155,7 +164,8 @@ void Inverse3Stylus::serve(Inverse3Link& link) {
   const bool vector = first.names_session;
   calibrated_ = powered_ = true;
   take(first, id);
-  static_cast<void>(ask_for_fifo(69));  // as the servo, where the system allows it; its periods are in the health either way
+  static_cast<void>(ask_for_fifo(
+      69));  // as the servo, where the system allows it; its periods are in the health either way
   ask_for_sharp_timers();
   const NoForceAtEnd no_force(link, inverse3_command(id, {}, vector));
   try {
@@ -169,19 +179,21 @@ void Inverse3Stylus::serve(Inverse3Link& link) {
   }
 }
 
-/// One command for one state. Throws Error when the line is cut, for what is no state, and after a second of silence.
+/// One command for one state. Throws Error when the line is cut, for what is no state, and after a
+/// second of silence.
 void Inverse3Stylus::exchange(Inverse3Link& link, const std::string& id, bool vector) {
   constexpr int k_max_silent = 10;
   link.send(inverse3_command(id, force(), vector), k_silent_after_s);
   int owed = 1;
   for (int silent = 0; owed > 0;) {
-    if (link.hear(heard_, k_silent_after_s)) {
+    if (link.hear(received_, k_silent_after_s)) {
       --owed;
-      take(parse_inverse3(heard_), id);
+      take(parse_inverse3(received_), id);
       continue;
     }
-    const Error silence = inverse3_error(DeviceError::silent, msg("the service is silent"),
-                                         msg("see whether the Haply Inverse Service still runs, and the device's cables"));
+    const Error silence = inverse3_error(
+        DeviceError::silent, msg("the service is silent"),
+        msg("see whether the Haply Inverse Service still runs, and the device's cables"));
     if (is_to_stop() || ++silent >= k_max_silent) throw silence;
     if (silent > 1) continue;
     lose();
@@ -192,14 +204,17 @@ void Inverse3Stylus::exchange(Inverse3Link& link, const std::string& id, bool ve
 }
 
 void Inverse3Stylus::take(const Inverse3Message& message, const std::string& id) {
-  const auto device = std::find_if(message.devices.begin(), message.devices.end(), [&id](const auto& d) { return d.id == id; });
-  if (device == message.devices.end()) throw inverse3_error(DeviceError::lost, msg("the Inverse3 {} was unplugged", id), msg("plug it in again"));
+  const auto device = std::find_if(message.devices.begin(), message.devices.end(),
+                                   [&id](const auto& d) { return d.id == id; });
+  if (device == message.devices.end())
+    throw inverse3_error(DeviceError::lost, msg("the Inverse3 {} was unplugged", id),
+                         msg("plug it in again"));
   Place place;
   std::optional<Error> problem = place_of(*device, place);
   if (!problem && facts_.measures_direction) problem = direction_of(message, place);
-  knows_its_place_ = !problem;
+  knows_its_position_ = !problem;
   set_problem(std::move(problem));
-  if (!knows_its_place_) return meter_.pause();
+  if (!knows_its_position_) return meter_.pause();
   place.at_ns = monotonic_ns();
   put(place);
   if (std::exchange(lost_, false)) plugged_in_.fetch_add(1);
@@ -208,21 +223,31 @@ void Inverse3Stylus::take(const Inverse3Message& message, const std::string& id)
 std::optional<Error> Inverse3Stylus::place_of(const Inverse3Device& device, Place& place) {
   calibrated_ = device.calibrated.value_or(calibrated_);
   powered_ = device.powered.value_or(powered_);
-  if (!powered_) return inverse3_error(DeviceError::no_power, msg("has no power"), msg("plug in its power supply"));
+  if (!powered_)
+    return inverse3_error(DeviceError::no_power, msg("has no power"),
+                          msg("plug in its power supply"));
   if (!calibrated_)
-    return inverse3_error(DeviceError::needs_calibration, msg("is not calibrated"),
-                          msg("put the grip onto its rest until the light says so, and take it up"));
-  if (!device.position_mm) return inverse3_error(DeviceError::no_position, msg("gives no place"), msg("start the Haply Inverse Service again"));
+    return inverse3_error(
+        DeviceError::needs_calibration, msg("is not calibrated"),
+        msg("put the grip onto its rest until the light says so, and take it up"));
+  if (!device.position_mm)
+    return inverse3_error(DeviceError::no_position, msg("gives no place"),
+                          msg("start the Haply Inverse Service again"));
   place.device_mm = *device.position_mm;
   return {};
 }
 
-std::optional<Error> Inverse3Stylus::direction_of(const Inverse3Message& message, Place& place) const {
+std::optional<Error> Inverse3Stylus::direction_of(const Inverse3Message& message,
+                                                  Place& place) const {
   try {
-    const Inverse3Grip& grip = chosen(message.grips, station_.text("grip"), msg("VerseGrip"), "grip");
-    if (!grip.to_device) return inverse3_error(DeviceError::no_direction, msg("its grip tells no direction"), msg("switch it on and move it"));
+    const Inverse3Grip& grip =
+        chosen(message.grips, station_.text("grip"), msg("VerseGrip"), "grip");
+    if (!grip.to_device)
+      return inverse3_error(DeviceError::no_direction, msg("its grip tells no direction"),
+                            msg("switch it on and move it"));
     place.tool_to_device = turned(tool_to_grip(), *grip.to_device);
-    place.flags = static_cast<std::uint16_t>((grip.button_1 ? k_button_1 : 0) | (grip.button_2 ? k_button_2 : 0));
+    place.flags = static_cast<std::uint16_t>((grip.button_1 ? k_button_1 : 0) |
+                                             (grip.button_2 ? k_button_2 : 0));
     return {};
   } catch (const Error& e) {
     return e;
@@ -232,7 +257,7 @@ std::optional<Error> Inverse3Stylus::direction_of(const Inverse3Message& message
 Vec3 Inverse3Stylus::force() noexcept {
   bool cut = false;
   const Vec3 force = force_now(cut);
-  if (!knows_its_place_) return {};
+  if (!knows_its_position_) return {};
   if (cut) forces_cut_.fetch_add(1, std::memory_order_relaxed);
   return force;
 }

@@ -17,17 +17,23 @@ std::vector<StylusInfo> list_styluses(bool begin, const StylusKinds& kinds) {
     } catch (const Error& e) {
       look.problem = e;  // the station's file
     }
-    found.push_back({.id = kind.facts.id, .name = kind.facts.name, .there = look.there, .problem = look.problem});
+    found.push_back({.id = kind.facts.id,
+                     .name = kind.facts.name,
+                     .there = look.there,
+                     .problem = look.problem});
   }
   return found;
 }
 
-std::unique_ptr<Stylus> open_stylus(const std::string& wanted, const StylusOptions& options, const StylusKinds& kinds) {
-  return kinds.at(wanted, msg("stylus '{}'", wanted), {StylusHand::candidate, StylusHand::person}).open(options);
+std::unique_ptr<Stylus> open_stylus(const std::string& wanted, const StylusOptions& options,
+                                    const StylusKinds& kinds) {
+  return kinds.at(wanted, msg("stylus '{}'", wanted), {StylusHand::candidate, StylusHand::person})
+      .open(options);
 }
 
 std::unique_ptr<Stylus> open_stylus(const std::string& wanted) {
-  const StylusKind& kind = stylus_kinds().at(wanted, msg("stylus '{}'", wanted), {StylusHand::candidate, StylusHand::person});
+  const StylusKind& kind = stylus_kinds().at(wanted, msg("stylus '{}'", wanted),
+                                             {StylusHand::candidate, StylusHand::person});
   StylusOptions options;
   options.station = load_station_stylus(kind);
   return kind.open(options);
@@ -45,7 +51,8 @@ Pose first_pose(Stylus& stylus, double patience_s) {
     std::this_thread::sleep_for(std::chrono::duration<double>(k_look_s));
   }
   if (const std::optional<Error> problem = stylus.health().problem) throw Error(*problem);
-  throw stylus_error(stylus.facts().id, DeviceError::no_position, msg("gives no position"), msg("see `cavum devices`"));
+  throw stylus_error(stylus.facts().id, DeviceError::no_position, msg("gives no position"),
+                     msg("see `cavum devices`"));
 }
 
 }  // namespace cavum

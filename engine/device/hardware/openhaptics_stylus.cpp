@@ -37,9 +37,13 @@ struct ErrorInfo {
   unsigned handle;
 };
 
-Error touch_error(DeviceError code, Message problem, Message advice) { return stylus_error("touch", code, std::move(problem), std::move(advice)); }
+Error touch_error(DeviceError code, Message problem, Message advice) {
+  return stylus_error("touch", code, std::move(problem), std::move(advice));
+}
 
-Message look_at_its_cables() { return msg("look at its cables, run the diagnostic of its maker's driver, and begin again"); }
+Message look_at_its_cables() {
+  return msg("look at its cables, run the diagnostic of its maker's driver, and begin again");
+}
 
 std::string code_text(unsigned code) { return fmt::format("0x{:04x}", code); }
 
@@ -57,12 +61,15 @@ StylusFacts touch_facts() {
 }  // namespace
 
 StylusKind touch_kind() {
-  StylusKind kind{.facts = touch_facts(),
-                  .placement = upright_device({}),
-                  // the library to load; the name given in its maker's setup, none: the default device
-                  .settings = {{.key = "library", .usual = "libHD.so"}, {.key = "device_name", .usual = ""}}};
+  StylusKind kind{
+      .facts = touch_facts(),
+      .placement = upright_device({}),
+      // the library to load; the name given in its maker's setup, none: the default device
+      .settings = {{.key = "library", .usual = "libHD.so"}, {.key = "device_name", .usual = ""}}};
   kind.look = look_for_touch;
-  kind.open = [](const StylusOptions& options) -> std::unique_ptr<Stylus> { return std::make_unique<OpenHapticsStylus>(options.station); };
+  kind.open = [](const StylusOptions& options) -> std::unique_ptr<Stylus> {
+    return std::make_unique<OpenHapticsStylus>(options.station);
+  };
   return kind;
 }
 
@@ -92,8 +99,9 @@ struct OpenHapticsStylus::Library {
 
   explicit Library(const std::string& path) : file(::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
     if (file == nullptr)
-      throw touch_error(DeviceError::library_missing, msg("OpenHaptics is not there ({})", path),
-                        msg("install OpenHaptics and the device's driver of 3D Systems, or name the library in stylus-touch.toml"));
+      throw touch_error(
+          DeviceError::library_missing, msg("OpenHaptics is not there ({})", path),
+          msg("install OpenHaptics and the device's driver of 3D Systems, or name the library in stylus-touch.toml"));
     find(init_device, "hdInitDevice");
     find(disable_device, "hdDisableDevice");
     find(make_current, "hdMakeCurrentDevice");
@@ -120,7 +128,8 @@ struct OpenHapticsStylus::Library {
   void find(Function& function, const char* name) {
     function = reinterpret_cast<Function>(::dlsym(file, name));
     if (function == nullptr)
-      throw touch_error(DeviceError::library_too_old, msg("its library has no {}", name), msg("install OpenHaptics 3.4 or later"));
+      throw touch_error(DeviceError::library_too_old, msg("its library has no {}", name),
+                        msg("install OpenHaptics 3.4 or later"));
   }
 
   /// Errors that wait are taken; the first one is returned, 0 = none.
@@ -142,7 +151,9 @@ struct OpenHapticsStylus::Library {
     if (error != 0 || handle == k_no_handle)
       throw touch_error(
           DeviceError::refuses,
-          msg("{} does not begin (error {})", name.empty() ? msg("the default device") : msg("the device '{}'", name), code_text(error)),
+          msg("{} does not begin (error {})",
+              name.empty() ? msg("the default device") : msg("the device '{}'", name),
+              code_text(error)),
           msg("look at its cables and power supply, and at its name in the setup of its maker's driver"));
     return handle;
   }
@@ -168,7 +179,8 @@ StylusLook look_for_touch(const StationStylus& station, bool begin) {
   try {
     const auto library = OpenHapticsStylus::Library::load(station.text("library"));
     const std::lock_guard lock(library->mutex);
-    if (begin && library->running == 0) library->disable_device(library->begin(station.text("device_name")));
+    if (begin && library->running == 0)
+      library->disable_device(library->begin(station.text("device_name")));
     look.there = true;
   } catch (const Error& e) {
     look.problem = e;
@@ -195,7 +207,9 @@ OpenHapticsStylus::OpenHapticsStylus(const StationStylus& station)
   library_->enable(k_force_output);
   if (const unsigned error = library_->take_errors(); error != 0) {
     library_->disable_device(handle_);
-    throw touch_error(DeviceError::refuses, msg("cannot be made ready (error {})", code_text(error)), look_at_its_cables());
+    throw touch_error(DeviceError::refuses,
+                      msg("cannot be made ready (error {})", code_text(error)),
+                      look_at_its_cables());
   }
   task_ = library_->schedule(&OpenHapticsStylus::call, this, k_highest_priority);
   if (library_->running++ == 0) library_->start_scheduler();
@@ -205,10 +219,12 @@ OpenHapticsStylus::OpenHapticsStylus(const StationStylus& station)
 OpenHapticsStylus::~OpenHapticsStylus() {
   cut_force();
   closing_.store(true, std::memory_order_release);
-  // The scheduler may serve another device: this one's last call must be over. It comes within a millisecond, unless the driver hangs.
+  // The scheduler may serve another device: this one's last call must be over. It comes within a
+  // millisecond, unless the driver hangs.
   constexpr int k_max_ms = 200;
   constexpr std::int64_t k_ms_ns = 1'000'000;
-  for (int i = 0; i < k_max_ms && !closed_.load(std::memory_order_acquire); ++i) sleep_until(monotonic_ns() + k_ms_ns);
+  for (int i = 0; i < k_max_ms && !closed_.load(std::memory_order_acquire); ++i)
+    sleep_until(monotonic_ns() + k_ms_ns);
   const std::lock_guard lock(library_->mutex);
   if (--library_->running == 0) library_->stop_scheduler();
   library_->unschedule(task_);
@@ -221,7 +237,8 @@ unsigned OpenHapticsStylus::call(void* self) {
   auto& stylus = *static_cast<OpenHapticsStylus*>(self);
   const bool last = stylus.closing_.load(std::memory_order_acquire);
   stylus.exchange();
-  if (last) stylus.closed_.store(true, std::memory_order_release);  // with no force, as it was cut before
+  if (last)
+    stylus.closed_.store(true, std::memory_order_release);  // with no force, as it was cut before
   return last ? k_done : k_again;
 }
 
@@ -253,12 +270,12 @@ Vec3 OpenHapticsStylus::force_now() noexcept {
 
 void OpenHapticsStylus::exchange() noexcept {
   library_->begin_frame(handle_);
-  const bool knows_its_place = calibrated();
+  const bool knows_its_position = calibrated();
   int buttons = 0;
   std::array<double, 16> m{};  // columns one after another
   library_->get_integers(k_buttons, &buttons);
   library_->get_doubles(k_transform, m.data());
-  const Vec3 force = knows_its_place ? force_now() : Vec3{};
+  const Vec3 force = knows_its_position ? force_now() : Vec3{};
   const std::array<double, 3> sent{force.x, force.y, force.z};
   library_->set_doubles(k_force, sent.data());
   library_->end_frame(handle_);
@@ -266,11 +283,13 @@ void OpenHapticsStylus::exchange() noexcept {
   if (error != 0) errors_.fetch_add(1, std::memory_order_relaxed);
   error_.store(error, std::memory_order_release);
   const Vec3 at{m[12], m[13], m[14]};
-  if (!knows_its_place || error >= k_first_device_error || !is_finite(at)) return;
+  if (!knows_its_position || error >= k_first_device_error || !is_finite(at)) return;
   const std::int64_t now = monotonic_ns();
   meter_.add(now);
   place_.put({at, rotation_of({m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}),
-              static_cast<std::uint16_t>(((buttons & 1) != 0 ? k_button_1 : 0) | ((buttons & 2) != 0 ? k_button_2 : 0)), now});
+              static_cast<std::uint16_t>(((buttons & 1) != 0 ? k_button_1 : 0) |
+                                         ((buttons & 2) != 0 ? k_button_2 : 0)),
+              now});
 }
 
 DeviceReading OpenHapticsStylus::read(double) {
@@ -297,17 +316,23 @@ StylusHealth OpenHapticsStylus::health() const {
   h.mean_period_s = meter_.mean_s();
   h.jitter_s = meter_.scatter_s();
   h.longest_gap_s = meter_.longest_s();
-  const unsigned error = error_.load(std::memory_order_acquire), calibration = calibration_.load(std::memory_order_acquire);
+  const unsigned error = error_.load(std::memory_order_acquire),
+                 calibration = calibration_.load(std::memory_order_acquire);
   if (error >= k_first_device_error)
-    h.problem = touch_error(DeviceError::lost, msg("was lost (error {})", code_text(error)), look_at_its_cables());
+    h.problem = touch_error(DeviceError::lost, msg("was lost (error {})", code_text(error)),
+                            look_at_its_cables());
   else if (calibration == 0)
     h.problem = touch_error(DeviceError::starting, msg("has not spoken yet"), msg("wait a second"));
   else if (calibration == k_calibration_manual)
-    h.problem = touch_error(DeviceError::needs_calibration, msg("needs calibration"), msg("put the stylus into its inkwell and take it out"));
+    h.problem = touch_error(DeviceError::needs_calibration, msg("needs calibration"),
+                            msg("put the stylus into its inkwell and take it out"));
   else if (calibration == k_calibration_update)
-    h.problem = touch_error(DeviceError::needs_calibration, msg("is being calibrated"), msg("hold the stylus still, in its inkwell if it has one"));
+    h.problem = touch_error(DeviceError::needs_calibration, msg("is being calibrated"),
+                            msg("hold the stylus still, in its inkwell if it has one"));
   else if (calibration != k_calibration_ok)
-    h.problem = touch_error(DeviceError::refuses, msg("says nothing of its calibration ({})", code_text(calibration)), look_at_its_cables());
+    h.problem = touch_error(DeviceError::refuses,
+                            msg("says nothing of its calibration ({})", code_text(calibration)),
+                            look_at_its_cables());
   else if (h.readings == 0)
     h.problem = touch_error(DeviceError::no_position, msg("gives no place"), look_at_its_cables());
   return h;

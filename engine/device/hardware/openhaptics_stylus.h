@@ -1,5 +1,6 @@
-// A Touch or PHANTOM Omni through OpenHaptics, whose library is loaded while the program runs: nothing of it is needed to build. Its own scheduler
-// calls back a thousand times a second; the callback exchanges the latest place for the latest force and does nothing else.
+// A Touch or PHANTOM Omni through OpenHaptics, whose library is loaded while the program runs:
+// nothing of it is needed to build. Its own scheduler calls back a thousand times a second; the
+// callback exchanges the latest place for the latest force and does nothing else.
 #pragma once
 
 #include <atomic>
@@ -13,15 +14,16 @@
 
 namespace cavum {
 
-/// Whether the library is there and, with `begin`, its device begins. Not to be begun again and again.
+/// Whether the library is there and, with `begin`, its device begins. Not to be begun again and
+/// again.
 [[nodiscard]] StylusLook look_for_touch(const StationStylus& station, bool begin);
 
 class OpenHapticsStylus final : public Stylus {
  public:
   static constexpr double k_stale_after_s = 0.003, k_force_lasts_s = 0.020;
 
-  /// Begins the device of `station`. Throws Error without the library, one of its functions, or the device. One that is not calibrated is opened; its
-  /// health says what to do.
+  /// Begins the device of `station`. Throws Error without the library, one of its functions, or the
+  /// device. One that is not calibrated is opened; its health says what to do.
   explicit OpenHapticsStylus(const StationStylus& station);
   ~OpenHapticsStylus() override;
   OpenHapticsStylus(const OpenHapticsStylus&) = delete;
@@ -68,7 +70,8 @@ class OpenHapticsStylus final : public Stylus {
   unsigned long task_ = 0;
 };
 
-/// Its record. Ratings are the Omni's, unless the device says its own; reach: half the depth of the Omni's workspace (recalled).
+/// Its record. Ratings are the Omni's, unless the device says its own; reach: half the depth of the
+/// Omni's workspace (recalled).
 [[nodiscard]] StylusKind touch_kind();
 
 }  // namespace cavum

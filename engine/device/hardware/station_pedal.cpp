@@ -13,7 +13,8 @@
 
 namespace cavum {
 
-void parse_usb_id(const std::string& text, const Message& where, std::uint16_t& vendor, std::uint16_t& product) {
+void parse_usb_id(const std::string& text, const Message& where, std::uint16_t& vendor,
+                  std::uint16_t& product) {
   const char* const end = text.data() + text.size();
   const bool shaped = text.size() == 9 && text[4] == ':';
   const auto four = [&](const char* from, std::uint16_t& number) {
@@ -21,11 +22,14 @@ void parse_usb_id(const std::string& text, const Message& where, std::uint16_t& 
     return error == std::errc{} && rest == from + 4;
   };
   if (!shaped || !four(text.data(), vendor) || !four(end - 4, product))
-    throw Error(DeviceError::not_a_usb_id, where, msg("'{}' is no USB device", text),
-                msg("write vendor and product as `cavum devices` shows them, for example 068e:00f2"));
+    throw Error(
+        DeviceError::not_a_usb_id, where, msg("'{}' is no USB device", text),
+        msg("write vendor and product as `cavum devices` shows them, for example 068e:00f2"));
 }
 
-std::string usb_id(std::uint16_t vendor, std::uint16_t product) { return fmt::format("{:04x}:{:04x}", vendor, product); }
+std::string usb_id(std::uint16_t vendor, std::uint16_t product) {
+  return fmt::format("{:04x}:{:04x}", vendor, product);
+}
 
 std::string station_pedal_path() { return station_path("pedal.toml"); }
 
@@ -36,7 +40,8 @@ StationPedal parse_station_pedal(const std::string& text, const std::string& whe
   parse_usb_id(reader.text("id"), msg("{}: id", where), pedal.vendor, pedal.product);
   constexpr double k_most = 2147483647.0;
   pedal.calibration.axis = static_cast<int>(reader.number("axis", 0, 63));
-  pedal.calibration.released = static_cast<std::int32_t>(reader.number("released", -k_most, k_most));
+  pedal.calibration.released =
+      static_cast<std::int32_t>(reader.number("released", -k_most, k_most));
   pedal.calibration.pressed = static_cast<std::int32_t>(reader.number("pressed", -k_most, k_most));
   pedal.calibration.speaks_on_change = reader.truth_or("speaks_on_change", false);
   reader.finish();
@@ -56,27 +61,32 @@ std::string to_toml(const StationPedal& pedal) {
   return fmt::format(
       "# The foot pedal of this station, by `cavum devices --calibrate-pedal`.\nid = \"{}\"\naxis = {}\nreleased = {}\npressed = "
       "{}\nspeaks_on_change = {}\n",
-      usb_id(pedal.vendor, pedal.product), c.axis, c.released, c.pressed, c.speaks_on_change ? "true" : "false");
+      usb_id(pedal.vendor, pedal.product), c.axis, c.released, c.pressed,
+      c.speaks_on_change ? "true" : "false");
 }
 
-PedalCalibration calibrate_pedal(const std::vector<AxisHeard>& axes, const std::vector<std::int64_t>& ranges, bool speaks_on_change) {
+PedalCalibration calibrate_pedal(const std::vector<AxisReceived>& axes,
+                                 const std::vector<std::int64_t>& ranges, bool speaks_on_change) {
   constexpr double k_min_share = 0.1, k_draw_in = 0.02;
   std::size_t best = 0;
   double best_share = 0.0;
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    const double share =
-        std::abs(static_cast<double>(axes[i].pressed) - axes[i].released) / static_cast<double>(std::max<std::int64_t>(1, ranges[i]));
+    const double share = std::abs(static_cast<double>(axes[i].pressed) - axes[i].released) /
+                         static_cast<double>(std::max<std::int64_t>(1, ranges[i]));
     if (share > best_share) {
       best = i;
       best_share = share;
     }
   }
   if (best_share < k_min_share)
-    throw Error(DeviceError::axes_still, msg("calibration"), msg("no axis moved by a tenth of its range"),
+    throw Error(DeviceError::axes_still, msg("calibration"),
+                msg("no axis moved by a tenth of its range"),
                 msg("press the pedal fully when asked to, and check its cable"));
-  const AxisHeard& heard = axes[best];
-  const double way = static_cast<double>(heard.pressed) - heard.released, sign = way > 0 ? 1.0 : -1.0;
-  const double in = sign * std::min(static_cast<double>(heard.jitter) + k_draw_in * std::abs(way), 0.25 * std::abs(way));
+  const AxisReceived& heard = axes[best];
+  const double way = static_cast<double>(heard.pressed) - heard.released,
+               sign = way > 0 ? 1.0 : -1.0;
+  const double in = sign * std::min(static_cast<double>(heard.jitter) + k_draw_in * std::abs(way),
+                                    0.25 * std::abs(way));
   return {.axis = static_cast<int>(best),
           .released = static_cast<std::int32_t>(heard.released + in),
           .pressed = static_cast<std::int32_t>(heard.pressed - in),

@@ -1,5 +1,5 @@
-// What this station keeps of a stylus: how it stands beside the tooth, and what its driver must be told. Made by `cavum devices --place`; one file
-// a kind of stylus in the station's own folder.
+// What this station keeps of a stylus: how it stands beside the tooth, and what its driver must be
+// told. Made by `cavum devices --place`; one file a kind of stylus in the station's own folder.
 #pragma once
 
 #include <map>
@@ -15,7 +15,8 @@ struct StylusKind;
 /// A number or a text.
 using StylusValue = std::variant<double, std::string>;
 
-/// One thing that a driver must be told, with the value that is meant when the station says nothing.
+/// One thing that a driver must be told, with the value that is meant when the station says
+/// nothing.
 struct StylusSetting {
   std::string key;
   StylusValue usual;
@@ -35,9 +36,10 @@ struct StationStylus {
 [[nodiscard]] std::string station_stylus_path(const std::string& id);
 /// What is meant when nobody has placed it: the kind's own.
 [[nodiscard]] StationStylus usual_station_stylus(const StylusKind& kind);
-/// Throws Error on a file that is no such text: `rotation` and `tool` (w, x, y, z; not all 0), `offset_mm` (x, y, z within 1 m), and optionally the
-/// settings of `kind`, each in its range.
-[[nodiscard]] StationStylus parse_station_stylus(const std::string& text, const std::string& where, const StylusKind& kind);
+/// Throws Error on a file that is no such text: `rotation` and `tool` (w, x, y, z; not all 0),
+/// `offset_mm` (x, y, z within 1 m), and optionally the settings of `kind`, each in its range.
+[[nodiscard]] StationStylus parse_station_stylus(const std::string& text, const std::string& where,
+                                                 const StylusKind& kind);
 /// What the station keeps, or the usual. Throws Error when the file is damaged.
 [[nodiscard]] StationStylus load_station_stylus(const StylusKind& kind);
 /// What parse_station_stylus reads.

@@ -13,9 +13,13 @@ namespace cavum {
 namespace {
 
 std::unique_ptr<Stylus> open_simulated(const StylusOptions& options) {
-  if (options.hand) return std::make_unique<SimulatedStylus>(OmniModel{}, HandModel{}, k_tick_s, options.hand);
+  if (options.hand)
+    return std::make_unique<SimulatedStylus>(OmniModel{}, HandModel{}, k_tick_s, options.hand);
   const HandModel nobody{.mass_kg = 0.0, .stiffness_n_per_mm = 0.0, .damping_n_s_per_mm = 0.0};
-  return std::make_unique<SimulatedStylus>(OmniModel{}, nobody, k_tick_s, [at = options.free_at_mm](double) { return HandIntent{at, 0.0}; });
+  return std::make_unique<SimulatedStylus>(OmniModel{}, nobody, k_tick_s,
+                                           [at = options.free_at_mm](double) {
+                                             return HandIntent{at, 0.0};
+                                           });
 }
 
 StylusKind simulated_kind() {
@@ -33,7 +37,9 @@ StylusKind mouse_kind() {
 }
 
 bool is_word(const std::string& id) {
-  return !id.empty() && std::all_of(id.begin(), id.end(), [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); });
+  return !id.empty() && std::all_of(id.begin(), id.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+  });
 }
 
 /// What the record lacks; empty when nothing.
@@ -41,7 +47,8 @@ Message lacks(const StylusKind& k) {
   const StylusFacts& f = k.facts;
   if (!is_word(f.id)) return msg("an id of lower-case letters and digits");
   if (f.name.empty()) return msg("a name");
-  if (!(f.peak_n > 0.0) || !(f.continuous_n > 0.0) || f.continuous_n > f.peak_n) return msg("forces above 0, the peak the larger one");
+  if (!(f.peak_n > 0.0) || !(f.continuous_n > 0.0) || f.continuous_n > f.peak_n)
+    return msg("forces above 0, the peak the larger one");
   if (!(f.rate_hz > 0.0)) return msg("a rate");
   if (!(f.reach_mm > 0.0)) return msg("a reach");
   if (k.hand == StylusHand::mouse) return {};
@@ -50,7 +57,9 @@ Message lacks(const StylusKind& k) {
   return {};
 }
 
-bool among(std::initializer_list<StylusHand> hands, StylusHand hand) { return std::find(hands.begin(), hands.end(), hand) != hands.end(); }
+bool among(std::initializer_list<StylusHand> hands, StylusHand hand) {
+  return std::find(hands.begin(), hands.end(), hand) != hands.end();
+}
 
 }  // namespace
 
@@ -59,13 +68,16 @@ StylusKinds::StylusKinds(std::vector<StylusKind> kinds) : kinds_(std::move(kinds
   for (const auto& k : kinds_) {
     const Message where = msg("table of styluses, '{}'", k.facts.id);
     if (const Message lack = lacks(k); !lack.empty())
-      throw Error(DeviceError::incomplete_record, where, msg("lacks {}", lack), msg("complete its record; see docs/howto/add_a_stylus.md"));
+      throw Error(DeviceError::incomplete_record, where, msg("lacks {}", lack),
+                  msg("complete its record; see docs/howto/add_a_stylus.md"));
     if (!taken.insert(k.facts.id).second)
-      throw Error(DeviceError::name_taken, where, msg("stands there twice"), msg("give each stylus an id of its own"));
+      throw Error(DeviceError::name_taken, where, msg("stands there twice"),
+                  msg("give each stylus an id of its own"));
   }
 }
 
-const StylusKind& StylusKinds::at(const std::string& id, const Message& where, std::initializer_list<StylusHand> hands) const {
+const StylusKind& StylusKinds::at(const std::string& id, const Message& where,
+                                  std::initializer_list<StylusHand> hands) const {
   for (const auto& k : kinds_)
     if (k.facts.id == id && among(hands, k.hand)) return k;
   throw Error(DeviceError::unknown_stylus, where, msg("is no stylus that can be used here"),
@@ -80,7 +92,8 @@ std::vector<std::string> StylusKinds::ids(std::initializer_list<StylusHand> hand
 }
 
 const StylusKinds& stylus_kinds() {
-  static const StylusKinds k_kinds({simulated_kind(), mouse_kind(), falcon_kind(), touch_kind(), inverse3_kind()});
+  static const StylusKinds k_kinds(
+      {simulated_kind(), mouse_kind(), falcon_kind(), touch_kind(), inverse3_kind()});
   return k_kinds;
 }
 

@@ -12,7 +12,8 @@ namespace cavum {
 ThreadedStylus::ThreadedStylus(const StationStylus& station, StylusFacts facts)
     : station_(station),
       facts_(std::move(facts)),
-      problem_(stylus_error(facts_.id, DeviceError::starting, msg("was not looked for yet"), msg("wait a second"))) {}
+      problem_(stylus_error(facts_.id, DeviceError::starting, msg("was not looked for yet"),
+                            msg("wait a second"))) {}
 
 ThreadedStylus::~ThreadedStylus() { stop(); }
 
@@ -35,9 +36,11 @@ DeviceReading ThreadedStylus::read(double) {
     return {.pose = {{k_none, k_none, k_none}, {}}};
   }
   const bool fresh = static_cast<double>(monotonic_ns() - last_.at_ns) * 1e-9 <= k_stale_after_s;
-  const Pose pose =
-      facts_.measures_direction ? to_tooth(station_.placement, last_.device_mm, last_.tool_to_device) : to_tooth(station_.placement, last_.device_mm);
-  return {.pose = pose, .flags = static_cast<std::uint16_t>(fresh ? last_.flags | k_stylus_fresh : 0)};
+  const Pose pose = facts_.measures_direction
+                        ? to_tooth(station_.placement, last_.device_mm, last_.tool_to_device)
+                        : to_tooth(station_.placement, last_.device_mm);
+  return {.pose = pose,
+          .flags = static_cast<std::uint16_t>(fresh ? last_.flags | k_stylus_fresh : 0)};
 }
 
 void ThreadedStylus::send_force(Vec3 force_n) {
@@ -66,7 +69,8 @@ void ThreadedStylus::set_problem(std::optional<Error> problem) {
 
 bool ThreadedStylus::wait(double seconds) {
   std::unique_lock lock(mutex_);
-  return stop_asked_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return stop_.load(); });
+  return stop_asked_.wait_for(lock, std::chrono::duration<double>(seconds),
+                              [this] { return stop_.load(); });
 }
 
 void ThreadedStylus::look_again_and_again(const std::function<void()>& serve) {
@@ -77,7 +81,8 @@ void ThreadedStylus::look_again_and_again(const std::function<void()>& serve) {
     } catch (const Error& e) {
       set_problem(e);
     } catch (const std::exception& e) {
-      set_problem(stylus_error(facts_.id, DeviceError::failed, msg("cannot be served ({})", e.what()), msg("begin Cavum again")));
+      set_problem(stylus_error(facts_.id, DeviceError::failed,
+                               msg("cannot be served ({})", e.what()), msg("begin Cavum again")));
     }
     meter_.pause();
   } while (!wait(k_look_again_s));

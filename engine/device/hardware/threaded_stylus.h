@@ -1,5 +1,5 @@
-// What styluses have in common that a thread of their own speaks with: the servo takes the latest place and leaves its latest force without waiting,
-// and what is wrong stands in the health.
+// What styluses have in common that a thread of their own speaks with: the servo takes the latest
+// place and leaves its latest force without waiting, and what is wrong stands in the health.
 #pragma once
 
 #include <atomic>
@@ -18,7 +18,8 @@ namespace cavum {
 
 class ThreadedStylus : public Stylus {
  public:
-  /// A place older than this is no longer fresh, and a force that nobody renewed for the second is not given.
+  /// A place older than this is no longer fresh, and a force that nobody renewed for the second is
+  /// not given.
   static constexpr double k_stale_after_s = 0.003, k_force_lasts_s = 0.020;
 
   ~ThreadedStylus() override;
@@ -47,12 +48,14 @@ class ThreadedStylus : public Stylus {
   void stop() noexcept;
 
   // Of the thread:
-  /// Serves what it finds, again and again until the end: an exception says what is wrong meanwhile.
+  /// Serves what it finds, again and again until the end: an exception says what is wrong
+  /// meanwhile.
   void look_again_and_again(const std::function<void()>& serve);
   [[nodiscard]] bool is_to_stop() const noexcept { return stop_.load(std::memory_order_relaxed); }
   void set_problem(std::optional<Error> problem);
   void put(const Place& place);
-  /// N, in the device's frame; none where the servo wants none, or has not said anything for k_force_lasts_s. `cut`: it wanted more than the peak.
+  /// N, in the device's frame; none where the servo wants none, or has not said anything for
+  /// k_force_lasts_s. `cut`: it wanted more than the peak.
   [[nodiscard]] Vec3 force_now(bool& cut) noexcept;
 
   const StationStylus station_;

@@ -1,4 +1,5 @@
-// What to do when the system does not let us open a USB device: the udev rule that gives it to whoever sits at the screen.
+// What to do when the system does not let us open a USB device: the udev rule that gives it to
+// whoever sits at the screen.
 #pragma once
 
 #include <cstdint>

@@ -27,11 +27,13 @@ std::string usb_serial(std::uint16_t vendor, std::uint16_t product) {
   std::error_code none;
   std::vector<std::filesystem::path> found;
   for (const auto& entry : std::filesystem::directory_iterator("/sys/bus/usb/devices", none))
-    if (first_line(entry.path() / "idVendor") == four_digits(vendor) && first_line(entry.path() / "idProduct") == four_digits(product))
+    if (first_line(entry.path() / "idVendor") == four_digits(vendor) &&
+        first_line(entry.path() / "idProduct") == four_digits(product))
       found.push_back(entry.path());
   if (found.empty()) return {};
   constexpr std::size_t k_longest = 126;  // of a USB string
-  return one_line(first_line(std::min_element(found.begin(), found.end())->string() + "/serial").substr(0, k_longest));
+  return one_line(first_line(std::min_element(found.begin(), found.end())->string() + "/serial")
+                      .substr(0, k_longest));
 }
 
 }  // namespace cavum

@@ -11,8 +11,8 @@
 namespace cavum {
 constexpr auto names_of(CheckEntry::Kind) { return std::array{"check", "decision", "new_history"}; }
 std::array<const char*, 4> names_of(CheckOutcome) {
-  return {outcome_name(CheckOutcome::learning), outcome_name(CheckOutcome::unchanged), outcome_name(CheckOutcome::changed),
-          outcome_name(CheckOutcome::doubtful)};
+  return {outcome_name(CheckOutcome::learning), outcome_name(CheckOutcome::unchanged),
+          outcome_name(CheckOutcome::changed), outcome_name(CheckOutcome::doubtful)};
 }
 
 // clang-format off
@@ -51,13 +51,16 @@ std::string signed_text(Json j) {
 
 }  // namespace
 
-const char* kind_name(CheckEntry::Kind kind) noexcept { return names_of(kind)[static_cast<std::size_t>(kind)]; }
+const char* kind_name(CheckEntry::Kind kind) noexcept {
+  return names_of(kind)[static_cast<std::size_t>(kind)];
+}
 
 nlohmann::json to_signed_json(const CheckEntry& e, const SigningKey& key) {
   Json j = to_json_value(e);
   j["station_key"] = to_hex(key.public_key);
   const std::string text = signed_text(j);
-  j["signature"] = to_hex(key.sign(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size())));
+  j["signature"] =
+      to_hex(key.sign(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size())));
   return j;
 }
 
@@ -65,11 +68,16 @@ CheckEntry read_check_entry(const nlohmann::json& j, const Where& where) {
   constexpr std::size_t k_max_changes = 16;
   Json said = j;
   if (said.is_object()) said.erase("signature");
-  auto e = json_value_of<CheckEntry>(
-      said, {.where = where, .advice = msg("use an intact copy"), .most_bytes = k_longest_check_reason, .most_elements = k_max_changes});
+  auto e = json_value_of<CheckEntry>(said, {.where = where,
+                                            .advice = msg("use an intact copy"),
+                                            .most_bytes = k_longest_check_reason,
+                                            .most_elements = k_max_changes});
   const std::string text = signed_text(j);
-  if (!is_signed_by(e.station_key, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()), text_in(j, "signature")))
-    throw Error(where, msg("does not have the signature of its station"), msg("somebody changed it; use an intact copy"));
+  if (!is_signed_by(e.station_key,
+                    std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()),
+                    text_in(j, "signature")))
+    throw Error(where, msg("does not have the signature of its station"),
+                msg("somebody changed it; use an intact copy"));
   return e;
 }
 

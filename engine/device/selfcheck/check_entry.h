@@ -1,5 +1,6 @@
-// One line of what a station keeps of its self-checks: a check, what was decided on it, or the beginning of a new history. JSON, signed by the
-// station; the last check goes into each session as it stands (note `self_check`).
+// One line of what a station keeps of its self-checks: a check, what was decided on it, or the
+// beginning of a new history. JSON, signed by the station; the last check goes into each session as
+// it stands (note `self_check`).
 #pragma once
 
 #include <cstdint>
@@ -25,13 +26,14 @@ struct CheckEntry {
   std::string station;      ///< its name
   std::string station_key;  ///< hexadecimal; signs the entry
   CheckedStylus stylus;
-  ArmFigures figures;             ///< of a check
-  CheckVerdict verdict;           ///< of a check
-  std::int64_t since_utc_ns = 0;  ///< of a check that found a change: of the first of those without a good one between them
-  bool go_on = false;             ///< of a decision: the exam takes place with it
-  std::string by;                 ///< of a decision: `supervisor` (by the code) or `person`
-  std::string reason;             ///< of a decision or a new history; may be empty
-  std::string previous;           ///< SHA-256 of the line before, hexadecimal; of the first line empty
+  ArmFigures figures;    ///< of a check
+  CheckVerdict verdict;  ///< of a check
+  std::int64_t since_utc_ns =
+      0;  ///< of a check that found a change: of the first of those without a good one between them
+  bool go_on = false;    ///< of a decision: the exam takes place with it
+  std::string by;        ///< of a decision: `supervisor` (by the code) or `person`
+  std::string reason;    ///< of a decision or a new history; may be empty
+  std::string previous;  ///< SHA-256 of the line before, hexadecimal; of the first line empty
 };
 
 /// The name of the value of `kind`.

@@ -1,4 +1,5 @@
-// What a session says of its station's last self-check (note `self_check`), read and held against the session.
+// What a session says of its station's last self-check (note `self_check`), read and held against
+// the session.
 #pragma once
 
 #include <optional>

@@ -13,7 +13,8 @@ namespace cavum {
 namespace {
 
 constexpr double k_cube_mm = 10.0, k_leaf_mm = 0.05;
-constexpr double k_air_mm = 0.3;          // before contact: long enough for the handpiece to reach its speed
+constexpr double k_air_mm =
+    0.3;  // before contact: long enough for the handpiece to reach its speed
 constexpr double k_window_s = 2.0;        // the steady force is a mean over the end of a run
 constexpr double k_time_constants = 6.0;  // after five the force is within 1 % of its end
 constexpr double k_steady = 0.1;          // a cut whose X is further than this from V·τ is none
@@ -24,24 +25,28 @@ struct Job {
   std::size_t set = 0, row = 0, run = 0;
 };
 
-/// The same for every model, so that two models are tried at the same places; of its own for every k and run.
+/// The same for every model, so that two models are tried at the same places; of its own for every
+/// k and run.
 std::uint64_t seed_of(const CubeOptions& o, double k_n_per_mm, std::size_t run) {
   const auto k = static_cast<std::uint64_t>(k_n_per_mm * 1e6 + 0.5);
   return Random(o.seed + Random(k).next() + 7919 * run).next();
 }
 
-CubeRun run_once(const ServoModel& servo, const Tooth& cube, const CubeOptions& o, const CubeRow& row, double tau_s, std::size_t number,
-                 bool recorded) {
+CubeRun run_once(const ServoModel& servo, const Tooth& cube, const CubeOptions& o,
+                 const CubeRow& row, double tau_s, std::size_t number, bool recorded) {
   Random random(seed_of(o, row.k_n_per_mm, number));
   constexpr double k_off_centre_mm = 1.0;
-  const Vec3 start{random.uniform(-k_off_centre_mm, k_off_centre_mm), random.uniform(-k_off_centre_mm, k_off_centre_mm),
+  const Vec3 start{random.uniform(-k_off_centre_mm, k_off_centre_mm),
+                   random.uniform(-k_off_centre_mm, k_off_centre_mm),
                    k_air_mm + random.uniform(0.0, 0.1)};
   TestingMachine machine(servo, cube, start, o.machine, random);
-  const auto ticks = static_cast<int>((start.z / o.machine.speed_mm_s + row.seconds) / servo.config.tick_s);
+  const auto ticks =
+      static_cast<int>((start.z / o.machine.speed_mm_s + row.seconds) / servo.config.tick_s);
   const int window = std::min(ticks, static_cast<int>(k_window_s / servo.config.tick_s));
   CubeRun run;
   run.start_mm = start;
-  run.friction_n = o.machine.omni.coulomb_n + o.machine.omni.viscous_n_s_per_mm * o.machine.speed_mm_s;
+  run.friction_n =
+      o.machine.omni.coulomb_n + o.machine.omni.viscous_n_s_per_mm * o.machine.speed_mm_s;
   double removed = 0.0;
   std::vector<double> force, time, ones(static_cast<std::size_t>(window), 1.0);
   for (int i = 0; i < ticks; ++i) {
@@ -54,8 +59,8 @@ CubeRun run_once(const ServoModel& servo, const Tooth& cube, const CubeOptions& 
       run.penetration_mm += r.servo.penetration_mm / window;
     }
     if (recorded && i % k_record_every == 0)
-      run.recording.push_back(
-          {r.t_s, r.servo.contact ? r.servo.penetration_mm : -r.crosshead_mm, o.machine.speed_mm_s, r.force_n, r.servo.rpm, removed});
+      run.recording.push_back({r.t_s, r.servo.contact ? r.servo.penetration_mm : -r.crosshead_mm,
+                               o.machine.speed_mm_s, r.force_n, r.servo.rpm, removed});
   }
   run.mean_n = mean_sd(force).mean;
   run.steady = std::fabs(run.penetration_mm / (o.machine.speed_mm_s * tau_s) - 1.0) <= k_steady;
@@ -98,13 +103,16 @@ CubeFit fit(const std::vector<CubeRow>& rows, bool friction) {
   out.with_root = fit_columns(columns, y);
   for (const CubeRow& row : rows)
     if (row.left_out < static_cast<int>(row.runs.size()))
-      out.bend_n = std::max(out.bend_n, std::fabs((friction ? row.with : row.without).mean - out.line.value[0] * row.k_n_per_mm - out.line.value[1]));
+      out.bend_n =
+          std::max(out.bend_n, std::fabs((friction ? row.with : row.without).mean -
+                                         out.line.value[0] * row.k_n_per_mm - out.line.value[1]));
   return out;
 }
 
 }  // namespace
 
-CubeResult run_cube_rig(const std::vector<CubeModel>& models, const Bur& bur, const CubeOptions& options) {
+CubeResult run_cube_rig(const std::vector<CubeModel>& models, const Bur& bur,
+                        const CubeOptions& options) {
   CubeResult result;
   result.options = options;
   const Tooth cube = make_cube(k_cube_mm, k_tissue, k_leaf_mm);
@@ -125,16 +133,19 @@ CubeResult run_cube_rig(const std::vector<CubeModel>& models, const Bur& bur, co
       CubeRow row;
       row.k_n_per_mm = k;
       row.c_n_s_per_mm = material.voigt.damping_n_s_per_mm;
-      const double branch_s = force.rendering.kvc_n_per_mm > 0 ? row.c_n_s_per_mm / force.rendering.kvc_n_per_mm : 0.0;
+      const double branch_s =
+          force.rendering.kvc_n_per_mm > 0 ? row.c_n_s_per_mm / force.rendering.kvc_n_per_mm : 0.0;
       row.seconds = k_time_constants * std::max(material.tau_s, branch_s);
       row.depth_mm = row.seconds * options.machine.speed_mm_s;
       if (row.depth_mm > k_cube_mm)
         throw Error(msg("force model '{}'", m.name),
-                    msg("needs {} of feed until the force is steady, the cube has 10", as_mm(row.depth_mm, k_as_needed)),
+                    msg("needs {} of feed until the force is steady, the cube has 10",
+                        as_mm(row.depth_mm, k_as_needed)),
                     msg("lower tau_s or c_n_s_per_mm"));
       row.expected_n = (k * material.tau_s + row.c_n_s_per_mm) * options.machine.speed_mm_s;
       row.runs.resize(static_cast<std::size_t>(options.runs));
-      for (std::size_t i = 0; i < row.runs.size(); ++i) jobs.push_back({result.sets.size(), set.rows.size(), i});
+      for (std::size_t i = 0; i < row.runs.size(); ++i)
+        jobs.push_back({result.sets.size(), set.rows.size(), i});
       set.rows.push_back(std::move(row));
     }
     result.sets.push_back(std::move(set));
@@ -142,8 +153,10 @@ CubeResult run_cube_rig(const std::vector<CubeModel>& models, const Bur& bur, co
   independent_runs(jobs.size(), [&](std::size_t j) {
     const Job& job = jobs[j];
     CubeRow& row = result.sets[job.set].rows[job.row];
-    const bool recorded = job.set == 0 && std::fabs(row.k_n_per_mm - options.recorded_k_n_per_mm) < 1e-9;
-    row.runs[job.run] = run_once(servos[job.set][job.row], cube, options, row, result.sets[job.set].tau_s, job.run, recorded);
+    const bool recorded =
+        job.set == 0 && std::fabs(row.k_n_per_mm - options.recorded_k_n_per_mm) < 1e-9;
+    row.runs[job.run] = run_once(servos[job.set][job.row], cube, options, row,
+                                 result.sets[job.set].tau_s, job.run, recorded);
   });
   for (CubeSet& set : result.sets) {
     for (CubeRow& row : set.rows) summarise(row);

@@ -1,6 +1,7 @@
-// The paper's virtual-cube experiment (its Fig. 6 and eq. 6): a stylus on a testing machine cuts cubes of stiffness
-// k at 0.25 mm/s, many times, and the steady force over k is fitted by a line. Beside it a fit with a √k term, for
-// that is what the published damping c = 2√k must add at constant speed.
+// The paper's virtual-cube experiment (its Fig. 6 and eq. 6): a stylus on a testing machine cuts
+// cubes of stiffness k at 0.25 mm/s, many times, and the steady force over k is fitted by a line.
+// Beside it a fit with a √k term, for that is what the published damping c = 2√k must add at
+// constant speed.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,7 +14,8 @@
 
 namespace cavum {
 
-/// A material set under test: its "dentin" is given every k of the experiment, with its own damping ratio.
+/// A material set under test: its "dentin" is given every k of the experiment, with its own damping
+/// ratio.
 struct CubeModel {
   std::string name;  ///< for tables: "paper", "consistent", or a file
   ForceModel force;
@@ -24,7 +26,8 @@ struct CubeOptions {
   int runs = 20;
   std::uint64_t seed = 1;
   MachineSettings machine;
-  double recorded_k_n_per_mm = -1.0;  ///< runs of the first model at this k are kept as recordings; -1 = none
+  double recorded_k_n_per_mm =
+      -1.0;  ///< runs of the first model at this k are kept as recordings; -1 = none
 };
 
 /// A reading of the machine at 100 Hz, as its CSV holds it.
@@ -34,13 +37,14 @@ struct CubeReading {
 };
 
 struct CubeRun {
-  Vec3 start_mm;              ///< tip before the run; the cube's top is z = 0
-  double mean_n = 0;          ///< load cell over the window, with joint friction and the cell's errors
+  Vec3 start_mm;      ///< tip before the run; the cube's top is z = 0
+  double mean_n = 0;  ///< load cell over the window, with joint friction and the cell's errors
   double penetration_mm = 0;  ///< X, mean over the window
   double trend_n_per_s = 0;   ///< slope of the force within the window: is it steady?
   std::uint16_t notices = 0;  ///< TickNotice bits of the servo's safety during the run
   double friction_n = 0;      ///< of the joints, contained in mean_n
-  bool steady = false;        ///< X within 10 % of V τ; otherwise the head is held in its hole, and the run is left out of the figures
+  bool steady = false;  ///< X within 10 % of V τ; otherwise the head is held in its hole, and the
+                        ///< run is left out of the figures
   std::vector<CubeReading> recording;
 };
 
@@ -79,11 +83,14 @@ struct CubeResult {
 };
 
 /// Throws Error when a model has no material "dentin" with k, c and τ.
-[[nodiscard]] CubeResult run_cube_rig(const std::vector<CubeModel>& models, const Bur& bur, const CubeOptions& options);
+[[nodiscard]] CubeResult run_cube_rig(const std::vector<CubeModel>& models, const Bur& bur,
+                                      const CubeOptions& options);
 
-/// Whether a set's forces leave a straight line by more than the scatter of a run, with a √k term that is not nothing.
+/// Whether a set's forces leave a straight line by more than the scatter of a run, with a √k term
+/// that is not nothing.
 [[nodiscard]] bool is_bent(const CubeSet& set);
-/// What the figures say, sentence by sentence: slope, intercept, curvature; about friction and about c.
+/// What the figures say, sentence by sentence: slope, intercept, curvature; about friction and
+/// about c.
 [[nodiscard]] std::vector<Message> cube_reading(const CubeResult& result);
 [[nodiscard]] Lines to_text(const CubeResult& result);
 [[nodiscard]] nlohmann::json to_json(const CubeResult& result);

@@ -1,5 +1,6 @@
-// How fast a bur grinds each tissue under a constant load: a weight rests on the turning bur, on its end or on its side, and the depth is
-// read while it sinks in. As bench tests of burs do, so that their published rates can stand beside ours (docs/cutting_rates.md).
+// How fast a bur grinds each tissue under a constant load: a weight rests on the turning bur, on
+// its end or on its side, and the depth is read while it sinks in. As bench tests of burs do, so
+// that their published rates can stand beside ours (docs/cutting_rates.md).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -33,11 +34,14 @@ struct GrindResult {
   std::vector<GrindRow> rows;
 };
 
-/// Each solid tissue of the model at each load. The rate is taken over `k_grind_window_mm`: on its end from where the whole end is in, on its side in
-/// a shallow groove. Volume is what leaves the tooth meanwhile. Throws Error when a tissue cannot be cut.
-[[nodiscard]] GrindResult run_grind_rig(const ForceModel& force, const Bur& bur, const GrindOptions& options);
+/// Each solid tissue of the model at each load. The rate is taken over `k_grind_window_mm`: on its
+/// end from where the whole end is in, on its side in a shallow groove. Volume is what leaves the
+/// tooth meanwhile. Throws Error when a tissue cannot be cut.
+[[nodiscard]] GrindResult run_grind_rig(const ForceModel& force, const Bur& bur,
+                                        const GrindOptions& options);
 /// One of its rows.
-[[nodiscard]] GrindRow grind(const ForceModel& force, const Bur& bur, const std::string& tissue, double load_n, const GrindOptions& options);
+[[nodiscard]] GrindRow grind(const ForceModel& force, const Bur& bur, const std::string& tissue,
+                             double load_n, const GrindOptions& options);
 inline constexpr double k_grind_window_mm = 0.2;
 
 [[nodiscard]] Lines to_text(const GrindResult& result);

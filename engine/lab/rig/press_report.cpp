@@ -16,7 +16,9 @@ bool same_wall(const PressCell& a, const PressCell& b) {
 Message figure(double v, int digits) { return msg("{}", as_number(v, digits)); }
 
 /// Cells of every table that say what was pressed on: k, c and delay.
-std::vector<Message> wall_cells(const PressCell& c) { return {figure(c.k_n_per_mm, 2), Name{damping_name(c.damping)}, msg("{}", c.delay_ticks)}; }
+std::vector<Message> wall_cells(const PressCell& c) {
+  return {figure(c.k_n_per_mm, 2), Name{damping_name(c.damping)}, msg("{}", c.delay_ticks)};
+}
 std::vector<Message> wall_heads() { return {msg("k, N/mm"), msg("c"), msg("delay, ticks")}; }
 std::vector<Message> joined(std::vector<Message> first, const std::vector<Message>& more) {
   first.insert(first.end(), more.begin(), more.end());
@@ -50,7 +52,8 @@ void add_walls(const PressResult& r, Lines& out) {
     }
     std::vector<Message>& force = forces.emplace_back(wall_cells(wall));
     for (const Worst* w : {&ours, &other})
-      force = joined(force, {figure(w->sd_n, 4), figure(w->generated_mj, 4), figure(w->peak_n, 2), msg("{}/{}", w->out, w->of)});
+      force = joined(force, {figure(w->sd_n, 4), figure(w->generated_mj, 4), figure(w->peak_n, 2),
+                             msg("{}/{}", w->out, w->of)});
     std::vector<Message>& bounced = bounces.emplace_back(wall_cells(wall));
     for (const double v : o.contact_mm_s) {
       int a = 0, b = 0;
@@ -63,8 +66,9 @@ void add_walls(const PressResult& r, Lines& out) {
     }
   }
   out.add(msg("The worst of all hands and loads, ours and explicit (k X + c V):"));
-  out.row(joined(wall_heads(), {msg("ours: sd, N"), msg("given out, mJ"), msg("peak, N"), msg("miss a limit"), msg("explicit: sd, N"),
-                                msg("given out, mJ"), msg("peak, N"), msg("miss a limit")}),
+  out.row(joined(wall_heads(), {msg("ours: sd, N"), msg("given out, mJ"), msg("peak, N"),
+                                msg("miss a limit"), msg("explicit: sd, N"), msg("given out, mJ"),
+                                msg("peak, N"), msg("miss a limit")}),
           2);
   for (auto& cells : forces) out.row(std::move(cells), 2);
   if (o.contact_mm_s.empty()) return;
@@ -90,15 +94,21 @@ void add_cells(const PressResult& r, Lines& out) {
           2);
   for (const auto& row : r.presses)
     out.row(joined(wall_cells(row.cell),
-                   {figure(1000 * row.cell.hand_n_per_mm, 0), figure(row.cell.press_n, 1), figure(row.ours.mean_n, 3), figure(row.ours.sd_n, 4),
-                    figure(given_out_mj(row.ours), 4), figure(row.explicit_voigt.mean_n, 3), figure(row.explicit_voigt.sd_n, 4),
-                    figure(given_out_mj(row.explicit_voigt), 4), row.ours.steady && row.ours.passive ? Message() : msg("misses a limit")}),
+                   {figure(1000 * row.cell.hand_n_per_mm, 0), figure(row.cell.press_n, 1),
+                    figure(row.ours.mean_n, 3), figure(row.ours.sd_n, 4),
+                    figure(given_out_mj(row.ours), 4), figure(row.explicit_voigt.mean_n, 3),
+                    figure(row.explicit_voigt.sd_n, 4), figure(given_out_mj(row.explicit_voigt), 4),
+                    row.ours.steady && row.ours.passive ? Message() : msg("misses a limit")}),
             2);
   out.gap();
-  out.row(joined(wall_heads(), {msg("hand, N/m"), msg("mm/s"), msg("bounces: ours"), msg("explicit"), msg("peak, N: ours"), msg("explicit")}), 2);
+  out.row(joined(wall_heads(), {msg("hand, N/m"), msg("mm/s"), msg("bounces: ours"),
+                                msg("explicit"), msg("peak, N: ours"), msg("explicit")}),
+          2);
   for (const auto& row : r.contacts)
-    out.row(joined(wall_cells(row.cell), {figure(1000 * row.cell.hand_n_per_mm, 0), figure(row.speed_mm_s, 0), msg("{}", row.ours.bounces),
-                                          msg("{}", row.explicit_voigt.bounces), figure(row.ours.peak_n, 2), figure(row.explicit_voigt.peak_n, 2)}),
+    out.row(joined(wall_cells(row.cell),
+                   {figure(1000 * row.cell.hand_n_per_mm, 0), figure(row.speed_mm_s, 0),
+                    msg("{}", row.ours.bounces), msg("{}", row.explicit_voigt.bounces),
+                    figure(row.ours.peak_n, 2), figure(row.explicit_voigt.peak_n, 2)}),
             2);
 }
 
@@ -110,14 +120,17 @@ void add_failing(const PressResult& r, Lines& out) {
     if (!any) {
       out.gap();
       out.add(msg("Ours out of the limits:"));
-      out.row(joined(wall_heads(), {msg("hand, N/m"), msg("press, N"), msg("sd, N"), msg("given out, mJ"), msg("encoder steps"),
-                                    msg("sd with an exact encoder, N")}),
+      out.row(joined(wall_heads(),
+                     {msg("hand, N/m"), msg("press, N"), msg("sd, N"), msg("given out, mJ"),
+                      msg("encoder steps"), msg("sd with an exact encoder, N")}),
               2);
       any = true;
     }
     out.row(joined(wall_cells(row.cell),
-                   {figure(1000 * row.cell.hand_n_per_mm, 0), figure(row.cell.press_n, 1), figure(row.ours.sd_n, 4),
-                    figure(given_out_mj(row.ours), 4), msg("{}", row.ours.encoder_steps), row.exact ? figure(row.exact->sd_n, 4) : Message()}),
+                   {figure(1000 * row.cell.hand_n_per_mm, 0), figure(row.cell.press_n, 1),
+                    figure(row.ours.sd_n, 4), figure(given_out_mj(row.ours), 4),
+                    msg("{}", row.ours.encoder_steps),
+                    row.exact ? figure(row.exact->sd_n, 4) : Message()}),
             2);
   }
 }
@@ -138,17 +151,18 @@ void add_summary(const PressResult& r, Lines& lines) {
     if (row.explicit_voigt.bounces > 0) ++explicit_bounced;
   }
   const std::size_t presses = r.presses.size(), contacts = r.contacts.size();
-  lines.add(
-      msg("Ours: presses that miss a limit: {} of {}; largest sd {} (limit {}); presses with energy given out: {}; contacts that bounce: {} of "
-          "{}.",
-          out, presses, as_n(worst, 4), as_n(r.options.limit_sd_n, 2), not_passive, bounced, contacts));
-  lines.add(msg("Explicit: presses that miss a limit: {} of {}; largest sd {}; contacts that bounce: {} of {}.", explicit_out, presses,
-                as_n(explicit_worst, 4), explicit_bounced, contacts));
+  lines.add(msg(
+      "Ours: presses that miss a limit: {} of {}; largest sd {} (limit {}); presses with energy given out: {}; contacts that bounce: {} of "
+      "{}.",
+      out, presses, as_n(worst, 4), as_n(r.options.limit_sd_n, 2), not_passive, bounced, contacts));
+  lines.add(msg(
+      "Explicit: presses that miss a limit: {} of {}; largest sd {}; contacts that bounce: {} of {}.",
+      explicit_out, presses, as_n(explicit_worst, 4), explicit_bounced, contacts));
   if (out > 0)
-    lines.add(
-        msg("Of ours that miss a limit, {} of {} are within the limits with an exact encoder: there the tip still creeps, as c lets go of its "
-            "force, and each step of the encoder ({}) is a step of the force.",
-            by_encoder, out, as_mm(r.options.omni.quantum_mm, 3)));
+    lines.add(msg(
+        "Of ours that miss a limit, {} of {} are within the limits with an exact encoder: there the tip still creeps, as c lets go of its "
+        "force, and each step of the encoder ({}) is a step of the force.",
+        by_encoder, out, as_mm(r.options.omni.quantum_mm, 3)));
 }
 
 json to_json(const PressCell& c) {
@@ -178,12 +192,16 @@ json to_json(const ContactOutcome& o) { return {{"bounces", o.bounces}, {"peak_n
 Lines to_text(const PressResult& r, bool every_cell) {
   const auto& o = r.options;
   Lines out;
-  out.add(msg("A hand presses the simulated Omni ({} g, friction {}, {} N s/m, encoder {}, peak {}) on a block, handpiece still, 1 kHz.",
-              as_number(1000 * o.omni.mass_kg, 0), as_n(o.omni.coulomb_n, 2), as_number(1000 * o.omni.viscous_n_s_per_mm, 1),
-              as_mm(o.omni.quantum_mm, 3), as_n(o.omni.saturation_n, 1)));
-  out.add(msg("The hand has {} g and a damping ratio of {} (assumed); it is down within 1 s and held for {}.", as_number(1000 * o.hand_mass_kg, 0),
-              as_number(o.hand_damping_ratio, 2), as_s(o.hold_s, 1)));
-  out.add(msg("Limits: sd of the last half second {}, energy given out none (under {} mJ).", as_n(o.limit_sd_n, 2), as_number(o.limit_energy_mj)));
+  out.add(msg(
+      "A hand presses the simulated Omni ({} g, friction {}, {} N s/m, encoder {}, peak {}) on a block, handpiece still, 1 kHz.",
+      as_number(1000 * o.omni.mass_kg, 0), as_n(o.omni.coulomb_n, 2),
+      as_number(1000 * o.omni.viscous_n_s_per_mm, 1), as_mm(o.omni.quantum_mm, 3),
+      as_n(o.omni.saturation_n, 1)));
+  out.add(msg(
+      "The hand has {} g and a damping ratio of {} (assumed); it is down within 1 s and held for {}.",
+      as_number(1000 * o.hand_mass_kg, 0), as_number(o.hand_damping_ratio, 2), as_s(o.hold_s, 1)));
+  out.add(msg("Limits: sd of the last half second {}, energy given out none (under {} mJ).",
+              as_n(o.limit_sd_n, 2), as_number(o.limit_energy_mj)));
   out.gap();
   add_walls(r, out);
   if (every_cell) add_cells(r, out);

@@ -1,6 +1,7 @@
-// Is the rendered force stable in a hand? The simulated Omni in a simulated hand presses on a block with the
-// handpiece still, in closed loop through the real servo step, for many stiffnesses, dampings, delays, hands and
-// loads. Beside every cell the explicit rendering F = k X + c V, which a 1 kHz loop cannot bear for the paper's c.
+// Is the rendered force stable in a hand? The simulated Omni in a simulated hand presses on a block
+// with the handpiece still, in closed loop through the real servo step, for many stiffnesses,
+// dampings, delays, hands and loads. Beside every cell the explicit rendering F = k X + c V, which
+// a 1 kHz loop cannot bear for the paper's c.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -17,10 +18,11 @@ namespace cavum {
 /// Where c comes from: eq. 5, critical damping of the stylus's mass, or nothing.
 enum class DampingRule : std::uint8_t { paper, consistent, none };
 [[nodiscard]] const char* damping_name(DampingRule rule) noexcept;
-[[nodiscard]] double damping_n_s_per_mm(DampingRule rule, double k_n_per_mm, double mass_kg) noexcept;
+[[nodiscard]] double damping_n_s_per_mm(DampingRule rule, double k_n_per_mm,
+                                        double mass_kg) noexcept;
 
-/// Ours: the Maxwell branch. Explicit: k X + c V with the plain difference of two ticks, through the same step, and with no slew
-/// limit but the device's own peak, as published.
+/// Ours: the Maxwell branch. Explicit: k X + c V with the plain difference of two ticks, through
+/// the same step, and with no slew limit but the device's own peak, as published.
 enum class Rendering : std::uint8_t { ours, explicit_voigt };
 
 struct PressCell {
@@ -42,26 +44,28 @@ struct PressOptions {
   double hand_damping_ratio = 0.7;  ///< of the hand on its own spring (assumed)
   double hold_s = 5.0;              ///< after the hand has come down
   double limit_sd_n = 0.02;         ///< required: force sd in the last half second
-  double limit_energy_mj = 0.001;   ///< required: no energy generated; less than this counts as none
-  RenderingModel rendering;         ///< ours
-  OmniModel omni;                   ///< its delay is the cell's
+  double limit_energy_mj = 0.001;  ///< required: no energy generated; less than this counts as none
+  RenderingModel rendering;        ///< ours
+  OmniModel omni;                  ///< its delay is the cell's
 };
 
 /// What a rendering did in a cell.
 struct PressOutcome {
   double mean_n = 0, sd_n = 0;  ///< rendered force in the last half second
   double peak_n = 0;            ///< over the whole press
-  double generated_mj = 0;      ///< passivity observer at the motors: the most that the wall had given out beyond what it had taken in
-  double late_mj = 0;           ///< given out in the last half second, beyond what the spring k lost
-  int encoder_steps = 0;        ///< in the last half second: the tip crept through them
-  std::uint16_t notices = 0;    ///< TickNotice bits
+  double generated_mj = 0;  ///< passivity observer at the motors: the most that the wall had given
+                            ///< out beyond what it had taken in
+  double late_mj = 0;       ///< given out in the last half second, beyond what the spring k lost
+  int encoder_steps = 0;    ///< in the last half second: the tip crept through them
+  std::uint16_t notices = 0;  ///< TickNotice bits
   bool steady = false, passive = false;
 };
 
 struct PressRow {
   PressCell cell;
   PressOutcome ours, explicit_voigt;
-  std::optional<PressOutcome> exact;  ///< ours once more with an exact encoder, where it missed a limit: is it the encoder?
+  std::optional<PressOutcome>
+      exact;  ///< ours once more with an exact encoder, where it missed a limit: is it the encoder?
 };
 
 /// Coming down on the block at a speed.
@@ -79,7 +83,8 @@ struct PressResult {
   PressOptions options;
   std::vector<PressRow> presses;
   std::vector<ContactRow> contacts;
-  [[nodiscard]] bool within_limits() const noexcept;  ///< every press with our rendering, and no bounce with it
+  [[nodiscard]] bool within_limits()
+      const noexcept;  ///< every press with our rendering, and no bounce with it
 };
 
 /// A block and the bur that presses on it with its tip.
@@ -89,10 +94,13 @@ struct PressBench {
 };
 [[nodiscard]] PressBench make_press_bench(const Bur& bur);
 
-/// One press: within a second the hand comes down to where its spring and the tissue's balance at `press_n`, and holds.
-[[nodiscard]] PressOutcome press(const PressBench& bench, const PressCell& cell, const PressOptions& options, Rendering rendering);
+/// One press: within a second the hand comes down to where its spring and the tissue's balance at
+/// `press_n`, and holds.
+[[nodiscard]] PressOutcome press(const PressBench& bench, const PressCell& cell,
+                                 const PressOptions& options, Rendering rendering);
 /// The hand comes down at `speed_mm_s` to where it presses with `press_n`.
-[[nodiscard]] ContactOutcome come_down(const PressBench& bench, const PressCell& cell, double speed_mm_s, const PressOptions& options,
+[[nodiscard]] ContactOutcome come_down(const PressBench& bench, const PressCell& cell,
+                                       double speed_mm_s, const PressOptions& options,
                                        Rendering rendering);
 /// Every combination of the options.
 [[nodiscard]] PressResult run_press_rig(const PressOptions& options, const Bur& bur);

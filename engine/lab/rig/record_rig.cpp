@@ -19,7 +19,8 @@ constexpr double k_held_n = 1e-3;
 constexpr double k_upright = 0.7;  // of the contact normal along the feed
 constexpr const char* k_tissue = "dentin";
 
-std::vector<RecordRow> session_rows(const Motion& motion, const ServoModel& servo, const Tooth& cube, const RecordOptions& o, int session,
+std::vector<RecordRow> session_rows(const Motion& motion, const ServoModel& servo,
+                                    const Tooth& cube, const RecordOptions& o, int session,
                                     Random random) {
   const Vec3 place{random.uniform(-2.0, 2.0), random.uniform(-2.0, 2.0), 0.0};
   const double dt = servo.config.tick_s;
@@ -30,23 +31,31 @@ std::vector<RecordRow> session_rows(const Motion& motion, const ServoModel& serv
   std::vector<RecordRow> rows;
   const auto every = std::max<std::int64_t>(1, std::llround(1.0 / (o.rate_hz * dt)));
   const auto ticks = static_cast<std::int64_t>(motion.duration_s() / dt);
-  double before = z;  // a row ago: the speed is the mean over a row, as a crosshead's encoder gives it
+  double before =
+      z;  // a row ago: the speed is the mean over a row, as a crosshead's encoder gives it
   for (std::int64_t tick = 0; tick < ticks; ++tick) {
     const MotionSample sample = motion.at(static_cast<double>(tick + 1) * dt);
     const double height = sample.pose.tip_mm.z;
-    if (height > k_air_mm) offset += std::clamp(surface - offset, -k_follow_mm_s * dt, k_follow_mm_s * dt);
+    if (height > k_air_mm)
+      offset += std::clamp(surface - offset, -k_follow_mm_s * dt, k_follow_mm_s * dt);
     z = height + offset;
-    input = make_tick_input({{place.x, place.y, z}, {}}, sample.pedal, k_stylus_fresh | k_pedal_fresh, 0, input);
+    input = make_tick_input({{place.x, place.y, z}, {}}, sample.pedal,
+                            k_stylus_fresh | k_pedal_fresh, 0, input);
     const TickOutput out = step(servo, state, input);
     removed += out.removed_count * cube.octree.leaf_volume_mm3();
-    // walls and rim of the hole that it cut touch the head too, without a force along the feed; its bottom never rises
-    const bool pressed = out.contact && out.normal.z > k_upright && out.penetration_mm > 0.0 && z + out.penetration_mm < surface + k_leaf_mm;
+    // walls and rim of the hole that it cut touch the head too, without a force along the feed; its
+    // bottom never rises
+    const bool pressed = out.contact && out.normal.z > k_upright && out.penetration_mm > 0.0 &&
+                         z + out.penetration_mm < surface + k_leaf_mm;
     if (pressed) surface = z + out.penetration_mm;
     if (tick % every != 0) continue;
-    const bool held = out.contact && !pressed && std::fabs(out.rendered_force_n.z) > k_held_n;  // by the rim: not along the feed, left out
+    const bool held =
+        out.contact && !pressed &&
+        std::fabs(out.rendered_force_n.z) > k_held_n;  // by the rim: not along the feed, left out
     const double v = tick == 0 ? 0.0 : (before - z) / (static_cast<double>(every) * dt);
     if (!held)
-      rows.push_back({session, static_cast<double>(tick) * dt, pressed ? out.penetration_mm : std::min(0.0, surface - z),
+      rows.push_back({session, static_cast<double>(tick) * dt,
+                      pressed ? out.penetration_mm : std::min(0.0, surface - z),
                       out.rendered_force_n.z + o.noise_n * random.normal(), v, out.rpm, removed});
     before = z;
   }
@@ -55,13 +64,16 @@ std::vector<RecordRow> session_rows(const Motion& motion, const ServoModel& serv
 
 }  // namespace
 
-RecordResult run_record_rig(const Motion& motion, const ForceModel& force, const Bur& bur, const RecordOptions& options) {
+RecordResult run_record_rig(const Motion& motion, const ForceModel& force, const Bur& bur,
+                            const RecordOptions& options) {
   const auto material = force.materials.find(k_tissue);
   if (material == force.materials.end())
-    throw Error(msg("force model '{}'", force.name), msg("has no material '{}'", k_tissue), msg("add [materials.{}]", k_tissue));
+    throw Error(msg("force model '{}'", force.name), msg("has no material '{}'", k_tissue),
+                msg("add [materials.{}]", k_tissue));
   for (const auto& s : motion.samples)
     if (s.pose.tip_mm.z < -k_deepest_mm)
-      throw Error(msg("motion"), msg("goes {} below the surface", as_mm(-s.pose.tip_mm.z, k_as_needed)),
+      throw Error(msg("motion"),
+                  msg("goes {} below the surface", as_mm(-s.pose.tip_mm.z, k_as_needed)),
                   msg("stay above 3 mm: z is the height over the cube"));
   const Tooth cube = make_cube(k_cube_mm, k_tissue, k_leaf_mm);
   const ServoModel servo = make_servo_model(cube, {bur}, force, {});
@@ -71,7 +83,8 @@ RecordResult run_record_rig(const Motion& motion, const ForceModel& force, const
   result.force_limit_n = servo.config.limits.peak_n;
   std::vector<std::vector<RecordRow>> sessions(static_cast<std::size_t>(options.sessions));
   independent_runs(sessions.size(), [&](std::size_t s) {
-    sessions[s] = session_rows(motion, servo, cube, options, static_cast<int>(s) + 1, Random(Random(options.seed + 7919 * s).next()));
+    sessions[s] = session_rows(motion, servo, cube, options, static_cast<int>(s) + 1,
+                               Random(Random(options.seed + 7919 * s).next()));
   });
   double worn = 0.0;  // the bur stays: what it removed goes on from session to session
   for (auto& rows : sessions) {
@@ -87,8 +100,8 @@ RecordResult run_record_rig(const Motion& motion, const ForceModel& force, const
 std::string record_csv(const RecordResult& r) {
   std::string out = "session,t_s,x_mm,f_n,v_mm_s,spindle_rpm,removed_mm3\n";
   for (const auto& row : r.rows)
-    out +=
-        fmt::format("{},{:.3f},{:.5f},{:.4f},{:.4f},{:.0f},{:.3f}\n", row.session, row.t_s, row.x_mm, row.f_n, row.v_mm_s, row.rpm, row.removed_mm3);
+    out += fmt::format("{},{:.3f},{:.5f},{:.4f},{:.4f},{:.0f},{:.3f}\n", row.session, row.t_s,
+                       row.x_mm, row.f_n, row.v_mm_s, row.rpm, row.removed_mm3);
   return out;
 }
 

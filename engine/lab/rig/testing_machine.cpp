@@ -12,13 +12,14 @@ namespace cavum {
 namespace {
 
 double encoded(double mm, double quantum_mm, double phase_mm) noexcept {
-  return quantum_mm > 0 ? std::floor((mm + phase_mm) / quantum_mm + 0.5) * quantum_mm - phase_mm : mm;
+  return quantum_mm > 0 ? std::floor((mm + phase_mm) / quantum_mm + 0.5) * quantum_mm - phase_mm
+                        : mm;
 }
 
 }  // namespace
 
-TestingMachine::TestingMachine(const ServoModel& model, const Tooth& tooth, Vec3 start_mm, const MachineSettings& settings, Random random,
-                               bool turning)
+TestingMachine::TestingMachine(const ServoModel& model, const Tooth& tooth, Vec3 start_mm,
+                               const MachineSettings& settings, Random random, bool turning)
     : model_(model),
       state_(make_servo_state(model, tooth, start_mm)),
       settings_(settings),
@@ -39,25 +40,29 @@ const MachineReading& TestingMachine::tick() noexcept {
   input_ = make_tick_input({seen, {}}, pedal_, k_stylus_fresh | k_pedal_fresh, 0, input_);
   reading_.servo = step(model_, state_, input_);
   reading_.motor_n = std::min(reading_.servo.rendered_force_n.z, settings_.omni.saturation_n);
-  reading_.exact_n = reading_.motor_n + settings_.omni.coulomb_n + settings_.omni.viscous_n_s_per_mm * settings_.speed_mm_s;
+  reading_.exact_n = reading_.motor_n + settings_.omni.coulomb_n +
+                     settings_.omni.viscous_n_s_per_mm * settings_.speed_mm_s;
   reading_.force_n = reading_.exact_n + zero_n_ + settings_.noise_n * random_.normal();
   return reading_;
 }
 
 Message load_cell_words(const MachineSettings& s) {
-  return msg("Load cell: joint friction {}; noise {} and a zero error of {} for each run (both assumed); encoder {}.", as_n(s.omni.coulomb_n, 2),
-             as_n(s.noise_n, 3), as_n(s.zero_n, 3), as_mm(s.omni.quantum_mm, 3));
+  return msg(
+      "Load cell: joint friction {}; noise {} and a zero error of {} for each run (both assumed); encoder {}.",
+      as_n(s.omni.coulomb_n, 2), as_n(s.noise_n, 3), as_n(s.zero_n, 3),
+      as_mm(s.omni.quantum_mm, 3));
 }
 
 ForceModel with_stiffness(ForceModel model, const std::string& tissue, double k_n_per_mm) {
   const auto found = model.materials.find(tissue);
   if (found == model.materials.end())
-    throw Error(RigError::no_material, msg("force model '{}'", model.name), msg("has no material for '{}'", tissue),
-                msg("add [materials.{}]", tissue));
+    throw Error(RigError::no_material, msg("force model '{}'", model.name),
+                msg("has no material for '{}'", tissue), msg("add [materials.{}]", tissue));
   Viscoelastic& v = found->second.voigt;
   if (!(v.stiffness_n_per_mm > 0))
     throw Error(RigError::no_stiffness, msg("force model '{}'", model.name),
-                msg("gives '{}' no stiffness, so its damping ratio is not known", tissue), msg("give it a k_n_per_mm above 0"));
+                msg("gives '{}' no stiffness, so its damping ratio is not known", tissue),
+                msg("give it a k_n_per_mm above 0"));
   v.damping_n_s_per_mm *= std::sqrt(k_n_per_mm / v.stiffness_n_per_mm);
   v.stiffness_n_per_mm = k_n_per_mm;
   return model;
@@ -65,12 +70,14 @@ ForceModel with_stiffness(ForceModel model, const std::string& tissue, double k_
 
 void require_penetration(const ForceModel& model) {
   if (model.law == CuttingLaw::pressure)
-    throw Error(RigError::by_pressure, msg("force model '{}'", model.name),
-                msg("cuts by pressure, and this experiment feeds at the paper's speed, for which it needs tau_s"),
-                msg("name a model that cuts by penetration, such as paper or consistent; `cavum rig grind` measures this one"));
+    throw Error(
+        RigError::by_pressure, msg("force model '{}'", model.name),
+        msg("cuts by pressure, and this experiment feeds at the paper's speed, for which it needs tau_s"),
+        msg("name a model that cuts by penetration, such as paper or consistent; `cavum rig grind` measures this one"));
 }
 
-ServoModel machine_servo(const Tooth& tooth, const Bur& bur, const ForceModel& force, const OmniModel& omni) {
+ServoModel machine_servo(const Tooth& tooth, const Bur& bur, const ForceModel& force,
+                         const OmniModel& omni) {
   ServoConfig config;
   config.position_quantum_mm = omni.quantum_mm;
   return make_servo_model(tooth, {bur}, force, config);

@@ -1,5 +1,6 @@
-// The paper's cut through a whole tooth (its Fig. 9): the stylus on a testing machine goes down at 0.25 mm/s through
-// hard tissue into the pulp, at slightly different places, and the force falls where the pulp is reached.
+// The paper's cut through a whole tooth (its Fig. 9): the stylus on a testing machine goes down at
+// 0.25 mm/s through hard tissue into the pulp, at slightly different places, and the force falls
+// where the pulp is reached.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -17,9 +18,10 @@ struct ToothRigOptions {
   int runs = 30;
   std::uint64_t seed = 1;
   MachineSettings machine;
-  std::optional<std::pair<double, double>> at_mm;  ///< x and y of the middle; else over the middle of the pulp's roof
-  double spread_mm = 0.4;                          ///< places lie at most this far from the middle
-  double after_s = 3.0;                            ///< the crosshead goes on after the pulp is reached
+  std::optional<std::pair<double, double>>
+      at_mm;               ///< x and y of the middle; else over the middle of the pulp's roof
+  double spread_mm = 0.4;  ///< places lie at most this far from the middle
+  double after_s = 3.0;    ///< the crosshead goes on after the pulp is reached
 };
 
 /// Readings at 100 Hz, zero at the first contact.
@@ -33,11 +35,14 @@ struct ToothRun {
   std::vector<ToothSample> samples;
   double first_tissue_s = 0;  ///< contact, s after the start of the crosshead
   bool reached_pulp = false;
-  bool held = false;                 ///< X passed twice V τ: the head is held in its hole. Left out of the figures, as are runs that miss the pulp
-  double pulp_s = 0;                 ///< the tip's way opens into pulp, s after contact
-  double before_n = 0, after_n = 0;  ///< means over half a second, ending half a second before, and beginning two seconds after
+  bool held = false;  ///< X passed twice V τ: the head is held in its hole. Left out of the
+                      ///< figures, as are runs that miss the pulp
+  double pulp_s = 0;  ///< the tip's way opens into pulp, s after contact
+  double before_n = 0, after_n = 0;  ///< means over half a second, ending half a second before, and
+                                     ///< beginning two seconds after
   double fall_s = 0;                 ///< from 90 % to 10 % of the fall
-  std::vector<std::pair<std::string, double>> tissue_mean_n;  ///< mean force by the tissue before the tip, from the top down
+  std::vector<std::pair<std::string, double>>
+      tissue_mean_n;  ///< mean force by the tissue before the tip, from the top down
   std::uint16_t notices = 0;
 };
 
@@ -57,14 +62,16 @@ struct ToothRigResult {
   ToothRigOptions options;
   std::string tooth, model, bur;
   std::vector<ToothRun> runs;
-  std::vector<BandPoint> from_contact, around_pulp;  ///< the same runs, set to zero at the contact and at the pulp
+  std::vector<BandPoint> from_contact,
+      around_pulp;  ///< the same runs, set to zero at the contact and at the pulp
   std::vector<ToothLayer> layers;
   MeanSd pulp_s, before_n, after_n, fall_s;  ///< of the runs counted
   int counted = 0;                           ///< runs in the figures
 };
 
 /// Throws Error when the tooth has no pulp under solid tissue there.
-[[nodiscard]] ToothRigResult run_tooth_rig(const Tooth& tooth, const ForceModel& force, const Bur& bur, const ToothRigOptions& options);
+[[nodiscard]] ToothRigResult run_tooth_rig(const Tooth& tooth, const ForceModel& force,
+                                           const Bur& bur, const ToothRigOptions& options);
 
 [[nodiscard]] Lines to_text(const ToothRigResult& result);
 [[nodiscard]] nlohmann::json to_json(const ToothRigResult& result);

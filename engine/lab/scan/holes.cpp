@@ -14,8 +14,10 @@ std::vector<Rim> rims_of(const TriangleMesh& mesh) {
   std::vector<Edge> open;  // those that fewer triangles run the other way
   for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
     for (end = i; end < edges.size() && edges[end] == edges[i];) ++end;
-    const auto [first, last] = std::equal_range(edges.begin(), edges.end(), Edge{edges[i][1], edges[i][0]});
-    for (auto n = static_cast<std::ptrdiff_t>(end - i); n > last - first; --n) open.push_back(edges[i]);
+    const auto [first, last] =
+        std::equal_range(edges.begin(), edges.end(), Edge{edges[i][1], edges[i][0]});
+    for (auto n = static_cast<std::ptrdiff_t>(end - i); n > last - first; --n)
+      open.push_back(edges[i]);
   }
   std::vector<bool> used(open.size(), false);
   std::vector<Rim> rims;
@@ -28,24 +30,28 @@ std::vector<Rim> rims_of(const TriangleMesh& mesh) {
       rim.corners.push_back(from);
       rim.length_mm += length(mesh.vertices_mm[to] - mesh.vertices_mm[from]);
       rim.middle_mm += mesh.vertices_mm[from];
-      auto next = static_cast<std::size_t>(std::lower_bound(open.begin(), open.end(), Edge{to, 0}) - open.begin());
+      auto next = static_cast<std::size_t>(std::lower_bound(open.begin(), open.end(), Edge{to, 0}) -
+                                           open.begin());
       while (next < open.size() && open[next][0] == to && used[next]) ++next;
       at = next < open.size() && open[next][0] == to ? next : open.size();
     }
     rim.middle_mm = rim.middle_mm / static_cast<double>(rim.corners.size());
     rims.push_back(std::move(rim));
   }
-  std::stable_sort(rims.begin(), rims.end(), [](const Rim& a, const Rim& b) { return a.length_mm > b.length_mm; });
+  std::stable_sort(rims.begin(), rims.end(),
+                   [](const Rim& a, const Rim& b) { return a.length_mm > b.length_mm; });
   return rims;
 }
 
 TriangleMesh caps_over(const TriangleMesh& mesh, const std::vector<Rim>& rims) {
   TriangleMesh caps;
   for (const Rim& rim : rims) {
-    const auto middle = static_cast<std::uint32_t>(caps.vertices_mm.size()), first = middle + 1, n = static_cast<std::uint32_t>(rim.corners.size());
+    const auto middle = static_cast<std::uint32_t>(caps.vertices_mm.size()), first = middle + 1,
+               n = static_cast<std::uint32_t>(rim.corners.size());
     caps.vertices_mm.push_back(rim.middle_mm);
     for (const auto c : rim.corners) caps.vertices_mm.push_back(mesh.vertices_mm[c]);
-    for (std::uint32_t i = 0; i < n; ++i) caps.triangles.push_back({middle, first + (i + 1) % n, first + i});
+    for (std::uint32_t i = 0; i < n; ++i)
+      caps.triangles.push_back({middle, first + (i + 1) % n, first + i});
   }
   return caps;
 }

@@ -14,7 +14,8 @@ struct Rim {
   Vec3 middle_mm;
 };
 
-/// All rims, the longest first. Where more than two edges of rims meet at one corner it is left to chance how they go on.
+/// All rims, the longest first. Where more than two edges of rims meet at one corner it is left to
+/// chance how they go on.
 [[nodiscard]] std::vector<Rim> rims_of(const TriangleMesh& mesh);
 
 /// Fans from each rim's middle, that close it.

@@ -29,7 +29,8 @@ OuterSurface::Distance OuterSurface::distance(Vec3 p, Octree::Cursor& cursor) co
   if (away < k_by_octree_mm) {
     const SurfaceSample s = tooth_.octree.sample(p, cursor);
     const double steep = length(s.gradient);
-    if (std::fabs(s.distance_mm) < 0.9 * band_mm() && steep > 0.5) return {s.distance_mm, s.gradient / steep};
+    if (std::fabs(s.distance_mm) < 0.9 * band_mm() && steep > 0.5)
+      return {s.distance_mm, s.gradient / steep};
   }
   const double plane = near.plane_mm(p);
   return {away < 1.0 ? plane : std::copysign(away, plane), near.normal};
@@ -41,7 +42,9 @@ double OuterSurface::at_leaf_mm(IVec3 leaf) const noexcept {
   const bool out = outside_[octree.tissue(leaf)];
   const Vec3 p = octree.centre_mm(leaf);
   const int code = octree.distance_code(leaf);
-  if (std::abs(code) == k_distance_far || length(p - index_.near(p).at_mm) > band_mm() + 2 * k_index_cell_mm) return out ? k_far_mm : -k_far_mm;
+  if (std::abs(code) == k_distance_far ||
+      length(p - index_.near(p).at_mm) > band_mm() + 2 * k_index_cell_mm)
+    return out ? k_far_mm : -k_far_mm;
   const double mm = std::fabs(decode_distance(code)) * octree.leaf_mm();
   return out ? mm : -mm;
 }

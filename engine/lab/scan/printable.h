@@ -1,4 +1,5 @@
-// A tooth as one closed surface that can be printed: the outside and the cavity as it was left, pulp filled.
+// A tooth as one closed surface that can be printed: the outside and the cavity as it was left,
+// pulp filled.
 #pragma once
 
 #include "engine/tooth/surface_mesh.h"

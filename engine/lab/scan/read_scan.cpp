@@ -35,7 +35,9 @@ TriangleMesh main_part(const TriangleMesh& mesh, const std::string& path, Scan& 
     if (area > most) most = area, largest = i;
   }
   if (all - most > k_max_beside * all)
-    throw Error(path, msg("is in {} parts, and the largest has {} of the surface only", parts.size(), as_percent(100 * most / all, 0)),
+    throw Error(path,
+                msg("is in {} parts, and the largest has {} of the surface only", parts.size(),
+                    as_percent(100 * most / all, 0)),
                 msg("give a mesh of the one tooth, whose triangles share their corners"));
   scan.parts_left_out = parts.size() - 1;
   scan.left_out_percent = 100 * (all - most) / all;
@@ -47,10 +49,11 @@ void require_few_holes(const std::vector<Rim>& rims, const std::string& path) {
   double all = 0;
   for (std::size_t i = 1; i < rims.size(); ++i) all += rims[i].length_mm;
   if (all > k_all_mm || (rims.size() > 1 && rims[1].length_mm > k_largest_mm))
-    throw Error(path,
-                msg("is open in {} places beside its end: holes of {} around in all, the largest of {}", rims.size() - 1, as_mm(all, 1),
-                    as_mm(rims[1].length_mm, 1)),
-                msg("close the holes in the scanner's program, and export one surface whose triangles share their corners"));
+    throw Error(
+        path,
+        msg("is open in {} places beside its end: holes of {} around in all, the largest of {}",
+            rims.size() - 1, as_mm(all, 1), as_mm(rims[1].length_mm, 1)),
+        msg("close the holes in the scanner's program, and export one surface whose triangles share their corners"));
 }
 
 }  // namespace
@@ -60,7 +63,9 @@ Scan read_scan(const std::string& path, double unit_mm) {
   TriangleMesh mesh = read_open_mesh(path);
   for (Vec3& v : mesh.vertices_mm) v = v * unit_mm;
   if (mesh.triangles.size() < k_fewest)
-    throw Error(path, msg("has {} triangles, which is too few to measure a cavity by: {} is the least", mesh.triangles.size(), k_fewest),
+    throw Error(path,
+                msg("has {} triangles, which is too few to measure a cavity by: {} is the least",
+                    mesh.triangles.size(), k_fewest),
                 msg("export the scan as fine as it is"));
   Scan scan;
   scan.mesh = main_part(mesh, path, scan);

@@ -14,8 +14,10 @@ struct Round {
   double misfit_mm;  // from which on a point does not fit at all
   std::size_t kept;
 };
-constexpr std::size_t k_turns = 2500;  // drawn evenly over all rotations: any pose lies within some 20 degrees of one
-constexpr Round k_rounds[] = {{160, 6, 0.6, 0.8, 120}, {500, 15, 0.6, 0.4, 24}, {2500, 25, 0.6, 0.15, 8}};
+constexpr std::size_t k_turns =
+    2500;  // drawn evenly over all rotations: any pose lies within some 20 degrees of one
+constexpr Round k_rounds[] = {
+    {160, 6, 0.6, 0.8, 120}, {500, 15, 0.6, 0.4, 24}, {2500, 25, 0.6, 0.15, 8}};
 constexpr std::size_t k_fine_points = 20000;
 constexpr double k_facing = 0.3;  // cosine between the normals of a pair
 
@@ -34,7 +36,8 @@ Vec3 middle_of(const std::vector<SurfacePoint>& points) {
   return sum / area;
 }
 
-/// Evenly over all rotations: a unit quaternion with normal components (Shoemake, Graphics Gems III).
+/// Evenly over all rotations: a unit quaternion with normal components (Shoemake, Graphics Gems
+/// III).
 Mat3 any_rotation(Random& random) {
   Quat q;
   do {
@@ -46,7 +49,8 @@ Mat3 any_rotation(Random& random) {
 /// Pairs of a scan's points with places of the tooth in one pose.
 class Pairs {
  public:
-  Pairs(const std::vector<SurfacePoint>& points, const SurfaceIndex& tooth) : points_(points), tooth_(tooth), away_(points.size()) {}
+  Pairs(const std::vector<SurfacePoint>& points, const SurfaceIndex& tooth)
+      : points_(points), tooth_(tooth), away_(points.size()) {}
 
   /// Trimmed ICP, point to plane.
   void draw_in(Rigid& pose, const Round& round) {
@@ -55,13 +59,16 @@ class Pairs {
       for (std::size_t i = 0; i < points_.size(); ++i) {
         const Vec3 p = pose * points_[i].at_mm;
         const SurfaceIndex::Place& near = tooth_.near(p);
-        away_[i] = dot(pose.rotation * points_[i].normal, near.normal) > k_facing ? length(p - near.at_mm) : k_none;
+        away_[i] = dot(pose.rotation * points_[i].normal, near.normal) > k_facing
+                       ? length(p - near.at_mm)
+                       : k_none;
         if (away_[i] < k_none) sorted.push_back(away_[i]);
       }
       const auto rank = static_cast<std::size_t>(round.trim * static_cast<double>(points_.size()));
       double reach = k_none / 2;
       if (rank < sorted.size()) {
-        std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(rank), sorted.end());
+        std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(rank),
+                         sorted.end());
         reach = sorted[rank];
       }
       PlaneSteps steps(pose * points_[points_.size() / 2].at_mm);
@@ -83,8 +90,10 @@ class Pairs {
       const Vec3 p = pose * point.at_mm;
       const SurfaceIndex::Place& near = tooth_.near(p);
       // within a cell the place is not the nearest one, and its plane says more
-      const double away = std::max(length(p - near.at_mm) - k_in_cell_mm, std::fabs(near.plane_mm(p))) / misfit_mm;
-      sum += dot(pose.rotation * point.normal, near.normal) > k_facing ? std::min(1.0, away * away) : 1.0;
+      const double away =
+          std::max(length(p - near.at_mm) - k_in_cell_mm, std::fabs(near.plane_mm(p))) / misfit_mm;
+      sum += dot(pose.rotation * point.normal, near.normal) > k_facing ? std::min(1.0, away * away)
+                                                                       : 1.0;
     }
     return sum / static_cast<double>(points_.size());
   }
@@ -102,11 +111,15 @@ bool elsewhere(const Rigid& a, const Rigid& b, Vec3 middle, double cosine, doubl
 
 /// The best of them, each once.
 std::vector<Trial> best_of(std::vector<Trial> trials, std::size_t count, Vec3 middle) {
-  std::stable_sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.misfit < b.misfit; });
+  std::stable_sort(trials.begin(), trials.end(),
+                   [](const Trial& a, const Trial& b) { return a.misfit < b.misfit; });
   std::vector<Trial> kept;
   for (const auto& t : trials) {
     if (kept.size() == count) break;
-    if (std::all_of(kept.begin(), kept.end(), [&](const Trial& k) { return elsewhere(t.pose, k.pose, middle, 0.9994, 0.15); })) kept.push_back(t);
+    if (std::all_of(kept.begin(), kept.end(), [&](const Trial& k) {
+          return elsewhere(t.pose, k.pose, middle, 0.9994, 0.15);
+        }))
+      kept.push_back(t);
   }
   return kept;
 }
@@ -122,7 +135,8 @@ struct Off {
 class FineFit {
  public:
   static constexpr double k_min_noise_mm = 0.005;
-  FineFit(const std::vector<SurfacePoint>& points, const OuterSurface& tooth) : points_(points), tooth_(tooth), off_(points.size()) {}
+  FineFit(const std::vector<SurfacePoint>& points, const OuterSurface& tooth)
+      : points_(points), tooth_(tooth), off_(points.size()) {}
 
   [[nodiscard]] std::optional<ScanPose> fit(Rigid pose) {
     constexpr int k_steps = 40;
@@ -142,7 +156,8 @@ class FineFit {
       if (!move) return std::nullopt;
       pose = move->after(pose);
       double most = 0;
-      for (std::size_t i = 0; i < off_.size(); i += off_.size() / 8 + 1) most = std::max(most, length(*move * off_[i].at - off_[i].at));
+      for (std::size_t i = 0; i < off_.size(); i += off_.size() / 8 + 1)
+        most = std::max(most, length(*move * off_[i].at - off_[i].at));
       if (most < k_still_mm) break;
     }
     look(pose);
@@ -153,7 +168,9 @@ class FineFit {
   /// Of the points, those that lie within `within_mm` of the tooth and face the same way.
   [[nodiscard]] double share(const Rigid& pose, double within_mm) {
     look(pose);
-    const auto fits = std::count_if(off_.begin(), off_.end(), [&](const Off& o) { return o.facing && std::fabs(o.mm) <= within_mm; });
+    const auto fits = std::count_if(off_.begin(), off_.end(), [&](const Off& o) {
+      return o.facing && std::fabs(o.mm) <= within_mm;
+    });
     return static_cast<double>(fits) / static_cast<double>(off_.size());
   }
 
@@ -165,7 +182,8 @@ class FineFit {
     for (std::size_t i = 0; i < off_.size(); ++i) {
       const Vec3 p = pose * points_[i].at_mm;
       const OuterSurface::Distance d = tooth_.distance(p, cursor_);
-      off_[i] = {d.mm, p, d.normal, std::fabs(d.mm) < near_mm, dot(pose.rotation * points_[i].normal, d.normal) > k_fine_facing};
+      off_[i] = {d.mm, p, d.normal, std::fabs(d.mm) < near_mm,
+                 dot(pose.rotation * points_[i].normal, d.normal) > k_fine_facing};
     }
   }
   /// By the median of those near by; none when they are too few.
@@ -176,7 +194,8 @@ class FineFit {
     for (const Off& o : off_)
       if (o.near && o.facing) sizes.push_back(std::fabs(o.mm));
     if (sizes.size() < k_fewest) return std::nullopt;
-    std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
+    std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2),
+                     sizes.end());
     return k_sigma_of_median * sizes[sizes.size() / 2];
   }
 
@@ -189,7 +208,8 @@ class FineFit {
 /// Every rotation, with the scan's middle on the tooth's and on its crown's.
 std::vector<Trial> all_starts(Vec3 scan_middle, const OuterSurface& tooth, Random& random) {
   std::vector<Vec3> anchors{middle_of(tooth.points())};
-  if (const Vec3 crown = middle_of(tooth.crown()); length(crown - anchors.front()) > 1.0) anchors.push_back(crown);
+  if (const Vec3 crown = middle_of(tooth.crown()); length(crown - anchors.front()) > 1.0)
+    anchors.push_back(crown);
   std::vector<Trial> starts;
   for (std::size_t i = 0; i < k_turns; ++i) {
     const Mat3 turn = any_rotation(random);
@@ -200,7 +220,8 @@ std::vector<Trial> all_starts(Vec3 scan_middle, const OuterSurface& tooth, Rando
 
 }  // namespace
 
-std::optional<Registration> register_scan(const std::vector<SurfacePoint>& scan, const OuterSurface& tooth) {
+std::optional<Registration> register_scan(const std::vector<SurfacePoint>& scan,
+                                          const OuterSurface& tooth) {
   Random random(20261126);
   const Vec3 middle = middle_of(scan);
   std::vector<Trial> trials = all_starts(middle, tooth, random);
@@ -221,8 +242,10 @@ std::optional<Registration> register_scan(const std::vector<SurfacePoint>& scan,
   if (poses.empty()) return std::nullopt;
   double noise_mm = poses.front().noise_mm;
   for (const auto& p : poses) noise_mm = std::min(noise_mm, p.noise_mm);
-  for (auto& p : poses) p.share = fine.share(p.to_tooth, 3 * std::max(noise_mm, FineFit::k_min_noise_mm));
-  std::stable_sort(poses.begin(), poses.end(), [](const ScanPose& a, const ScanPose& b) { return a.share > b.share; });
+  for (auto& p : poses)
+    p.share = fine.share(p.to_tooth, 3 * std::max(noise_mm, FineFit::k_min_noise_mm));
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const ScanPose& a, const ScanPose& b) { return a.share > b.share; });
   Registration r{poses.front(), std::nullopt};
   for (const auto& p : poses)
     if (!r.second && elsewhere(p.to_tooth, r.best.to_tooth, middle, 0.9903, 1.0)) r.second = p;

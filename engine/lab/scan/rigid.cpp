@@ -14,7 +14,8 @@ std::optional<Rigid> PlaneSteps::solve() const {
     for (int j = 0; j <= i; ++j, ++k) a(i, j) = a(j, i) = normal_[k];
     b(i) = right_[static_cast<std::size_t>(i)];
   }
-  // a motion that the planes leave open (a ball turns freely) stays where it is instead of running away
+  // a motion that the planes leave open (a ball turns freely) stays where it is instead of running
+  // away
   constexpr double k_held = 1e-6;
   a.diagonal().array() += k_held * weight_;
   const Eigen::LDLT<Matrix> factors(a);

@@ -1,4 +1,5 @@
-// A motion without change of size, and the small one that lays points onto planes: the step of an ICP.
+// A motion without change of size, and the small one that lays points onto planes: the step of an
+// ICP.
 #pragma once
 
 #include <array>
@@ -17,7 +18,8 @@ struct Rigid {
   [[nodiscard]] Rigid after(const Rigid& first) const noexcept {
     const auto column = [&](Vec3 axis) { return rotation * (first.rotation * axis); };
     const Vec3 x = column({1, 0, 0}), y = column({0, 1, 0}), z = column({0, 0, 1});
-    return {{{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}}, rotation * first.shift_mm + shift_mm};
+    return {{{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}},
+            rotation * first.shift_mm + shift_mm};
   }
 };
 
@@ -26,8 +28,9 @@ struct Rigid {
   return 0.5 * (dot(a.row_x, b.row_x) + dot(a.row_y, b.row_y) + dot(a.row_z, b.row_z) - 1.0);
 }
 
-/// Least squares of point to plane: the small motion x = (w, t) that makes Σ weight ((p - c) × n · w + n · t + r)² least, for points p with signed
-/// distance r to a plane of unit normal n. Source: Chen and Medioni, Image and Vision Computing 10 (1992) 145; rotation about the middle c.
+/// Least squares of point to plane: the small motion x = (w, t) that makes Σ weight ((p - c) × n ·
+/// w + n · t + r)² least, for points p with signed distance r to a plane of unit normal n. Source:
+/// Chen and Medioni, Image and Vision Computing 10 (1992) 145; rotation about the middle c.
 class PlaneSteps {
  public:
   explicit PlaneSteps(Vec3 middle_mm) noexcept : middle_mm_(middle_mm) {}

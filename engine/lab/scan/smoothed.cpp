@@ -16,9 +16,13 @@ class Neighbours {
     cell_mm_ = radius_mm;
     constexpr double k_max_cells = 8e6;
     const auto along = [&](double mm) { return std::floor(mm / cell_mm_) + 1; };
-    while (along(box.high.x - box.low.x) * along(box.high.y - box.low.y) * along(box.high.z - box.low.z) > k_max_cells) cell_mm_ *= 1.25;
+    while (along(box.high.x - box.low.x) * along(box.high.y - box.low.y) *
+               along(box.high.z - box.low.z) >
+           k_max_cells)
+      cell_mm_ *= 1.25;
     low_mm_ = box.low;
-    size_ = {static_cast<int>(along(box.high.x - box.low.x)), static_cast<int>(along(box.high.y - box.low.y)),
+    size_ = {static_cast<int>(along(box.high.x - box.low.x)),
+             static_cast<int>(along(box.high.y - box.low.y)),
              static_cast<int>(along(box.high.z - box.low.z))};
     first_.assign(cells_of(size_) + 1, 0);
     for (const auto& p : points) ++first_[index(cell_of(p.at_mm)) + 1];
@@ -27,13 +31,15 @@ class Neighbours {
     std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
     for (const auto& p : points) sorted_[next[index(cell_of(p.at_mm))]++] = p;
   }
-  /// Calls `visit(point, r²)` for each point within the radius of `at`; r: its distance over the radius.
+  /// Calls `visit(point, r²)` for each point within the radius of `at`; r: its distance over the
+  /// radius.
   template <class Visit>
   void around(Vec3 at, const Visit& visit) const {
     const IVec3 c = cell_of(at);
     for (int z = std::max(c.z - 1, 0); z <= std::min(c.z + 1, size_.z - 1); ++z)
       for (int y = std::max(c.y - 1, 0); y <= std::min(c.y + 1, size_.y - 1); ++y) {
-        const std::size_t from = index({std::max(c.x - 1, 0), y, z}), to = index({std::min(c.x + 1, size_.x - 1), y, z});
+        const std::size_t from = index({std::max(c.x - 1, 0), y, z}),
+                          to = index({std::min(c.x + 1, size_.x - 1), y, z});
         for (std::size_t i = first_[from]; i < first_[to + 1]; ++i) {
           const Vec3 off = at - sorted_[i].at_mm;
           const double squared = dot(off, off) / (radius_mm_ * radius_mm_);
@@ -45,7 +51,9 @@ class Neighbours {
  private:
   [[nodiscard]] IVec3 cell_of(Vec3 p) const noexcept {
     const Vec3 q = (p - low_mm_) / cell_mm_;
-    const auto within = [](double v, int n) { return v > 0 ? std::min(static_cast<int>(v), n - 1) : 0; };
+    const auto within = [](double v, int n) {
+      return v > 0 ? std::min(static_cast<int>(v), n - 1) : 0;
+    };
     return {within(q.x, size_.x), within(q.y, size_.y), within(q.z, size_.z)};
   }
   [[nodiscard]] std::size_t index(IVec3 c) const noexcept { return cell_index(c, size_); }
@@ -82,7 +90,8 @@ Implicit implicit_at(Vec3 at, const Neighbours& neighbours, double radius_mm) {
         alpha /= b * b * c * c;
       }
       const double w = alpha * left * left * left * left;
-      const Vec3 slope = off * (-8 * alpha * left * left * left / (radius_mm * radius_mm));  // of the weight
+      const Vec3 slope =
+          off * (-8 * alpha * left * left * left / (radius_mm * radius_mm));  // of the weight
       weights += w;
       values += w * plane;
       slopes += slope;
@@ -99,7 +108,8 @@ Implicit implicit_at(Vec3 at, const Neighbours& neighbours, double radius_mm) {
 
 /// The points with the normals of what lies around them, those alike more than others.
 std::vector<SurfacePoint> with_even_normals(std::vector<SurfacePoint> points, double radius_mm) {
-  constexpr double k_alike[] = {1.4, 0.7};  // of unit normals: from which difference on they count less
+  constexpr double k_alike[] = {1.4,
+                                0.7};  // of unit normals: from which difference on they count less
   for (const double alike : k_alike) {
     const Neighbours neighbours(points, radius_mm);
     for (SurfacePoint& point : points) {
@@ -117,7 +127,8 @@ std::vector<SurfacePoint> with_even_normals(std::vector<SurfacePoint> points, do
 
 }  // namespace
 
-TriangleMesh smoothed(const TriangleMesh& mesh, const std::vector<SurfacePoint>& points, const std::vector<std::uint8_t>& wanted, double radius_mm) {
+TriangleMesh smoothed(const TriangleMesh& mesh, const std::vector<SurfacePoint>& points,
+                      const std::vector<std::uint8_t>& wanted, double radius_mm) {
   constexpr int k_steps = 2;
   TriangleMesh out = mesh;
   if (points.empty()) return out;

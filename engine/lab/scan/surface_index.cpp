@@ -6,14 +6,17 @@
 
 namespace cavum {
 
-SurfaceIndex::SurfaceIndex(const std::vector<SurfacePoint>& points, double cell_mm, double margin_mm) : cell_mm_(cell_mm) {
+SurfaceIndex::SurfaceIndex(const std::vector<SurfacePoint>& points, double cell_mm,
+                           double margin_mm)
+    : cell_mm_(cell_mm) {
   constexpr double k_max_cells = 4e6;
   Bounds box;
   for (const auto& p : points) box.add(p.at_mm);
   const Vec3 margin{margin_mm, margin_mm, margin_mm};
   low_mm_ = box.low - margin;
   const Vec3 extent = box.high + margin - low_mm_;
-  while (extent.x * extent.y * extent.z > k_max_cells * cell_mm_ * cell_mm_ * cell_mm_) cell_mm_ *= 1.1;
+  while (extent.x * extent.y * extent.z > k_max_cells * cell_mm_ * cell_mm_ * cell_mm_)
+    cell_mm_ *= 1.1;
   const auto cells = [&](double mm) { return static_cast<std::int32_t>(mm / cell_mm_) + 1; };
   size_ = {cells(extent.x), cells(extent.y), cells(extent.z)};
 

@@ -12,7 +12,8 @@ namespace {
 
 using Corners = std::array<Vec3, 3>;
 
-/// The triangle in halves, across its longest edge each, until no edge is longer: `visit(corners, halvings)`.
+/// The triangle in halves, across its longest edge each, until no edge is longer: `visit(corners,
+/// halvings)`.
 template <class Visit>
 void halved(const Corners& whole, double longest_mm, const Visit& visit) {
   constexpr int k_max_halvings = 40;
@@ -27,7 +28,8 @@ void halved(const Corners& whole, double longest_mm, const Visit& visit) {
       visit(t, halvings);
       continue;
     }
-    const Vec3 a = t[longest], b = t[(longest + 1) % 3], c = t[(longest + 2) % 3], middle = (a + b) * 0.5;
+    const Vec3 a = t[longest], b = t[(longest + 1) % 3], c = t[(longest + 2) % 3],
+               middle = (a + b) * 0.5;
     open.push_back({{a, middle, c}, halvings + 1});
     open.push_back({{middle, b, c}, halvings + 1});
   }
@@ -35,7 +37,8 @@ void halved(const Corners& whole, double longest_mm, const Visit& visit) {
 
 }  // namespace
 
-std::vector<SurfacePoint> surface_points(const TriangleMesh& mesh, double longest_mm, const Where& where) {
+std::vector<SurfacePoint> surface_points(const TriangleMesh& mesh, double longest_mm,
+                                         const Where& where) {
   std::vector<SurfacePoint> points;
   points.reserve(mesh.triangles.size());
   for (const auto& t : mesh.triangles) {
@@ -47,13 +50,15 @@ std::vector<SurfacePoint> surface_points(const TriangleMesh& mesh, double longes
       if (points.size() >= k_max_scan_points)
         throw Error(where, msg("its triangles cover more than {} places", k_max_scan_points),
                     msg("check the unit, and that it is the surface of one tooth"));
-      points.push_back({(part[0] + part[1] + part[2]) / 3, across / twice, 0.5 * twice / static_cast<double>(std::uint64_t{1} << halvings)});
+      points.push_back({(part[0] + part[1] + part[2]) / 3, across / twice,
+                        0.5 * twice / static_cast<double>(std::uint64_t{1} << halvings)});
     });
   }
   return points;
 }
 
-std::vector<SurfacePoint> drawn_by_area(const std::vector<SurfacePoint>& points, std::size_t count, Random& random) {
+std::vector<SurfacePoint> drawn_by_area(const std::vector<SurfacePoint>& points, std::size_t count,
+                                        Random& random) {
   std::vector<SurfacePoint> drawn;
   drawn.reserve(count);
   const double step = area_of(points) / static_cast<double>(count);
@@ -71,7 +76,8 @@ std::vector<SurfacePoint> drawn_by_area(const std::vector<SurfacePoint>& points,
 std::vector<Vec3> corner_normals(const TriangleMesh& mesh) {
   std::vector<Vec3> normals(mesh.vertices_mm.size());
   for (const auto& t : mesh.triangles) {
-    const Vec3 a = mesh.vertices_mm[t[0]], across = cross(mesh.vertices_mm[t[1]] - a, mesh.vertices_mm[t[2]] - a);
+    const Vec3 a = mesh.vertices_mm[t[0]],
+               across = cross(mesh.vertices_mm[t[1]] - a, mesh.vertices_mm[t[2]] - a);
     for (const auto i : t) normals[i] += across;
   }
   for (Vec3& n : normals) n = length(n) > 0 ? n / length(n) : Vec3{0, 0, 1};

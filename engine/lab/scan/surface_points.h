@@ -1,4 +1,5 @@
-// A triangle surface as points with a normal and an area: what is averaged over a surface is a sum over them, however large its triangles are.
+// A triangle surface as points with a normal and an area: what is averaged over a surface is a sum
+// over them, however large its triangles are.
 #pragma once
 
 #include <vector>
@@ -17,12 +18,16 @@ struct SurfacePoint {
 /// Places on one surface.
 inline constexpr std::size_t k_max_scan_points = 6'000'000;
 
-/// Each triangle in parts with edges of at most `longest_mm`, by halving its longest edge: their middles. Triangles without area give none. Throws
-/// Error(`where`, ...) where that would be more than those.
-[[nodiscard]] std::vector<SurfacePoint> surface_points(const TriangleMesh& mesh, double longest_mm, const Where& where);
+/// Each triangle in parts with edges of at most `longest_mm`, by halving its longest edge: their
+/// middles. Triangles without area give none. Throws Error(`where`, ...) where that would be more
+/// than those.
+[[nodiscard]] std::vector<SurfacePoint> surface_points(const TriangleMesh& mesh, double longest_mm,
+                                                       const Where& where);
 
-/// `count` of them, drawn in proportion to their areas, evenly along the list: the same for the same list.
-[[nodiscard]] std::vector<SurfacePoint> drawn_by_area(const std::vector<SurfacePoint>& points, std::size_t count, Random& random);
+/// `count` of them, drawn in proportion to their areas, evenly along the list: the same for the
+/// same list.
+[[nodiscard]] std::vector<SurfacePoint> drawn_by_area(const std::vector<SurfacePoint>& points,
+                                                      std::size_t count, Random& random);
 
 /// Unit normals of a mesh's corners, weighted by the area of their triangles.
 [[nodiscard]] std::vector<Vec3> corner_normals(const TriangleMesh& mesh);

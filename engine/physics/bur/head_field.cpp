@@ -14,7 +14,8 @@ HeadField::HeadField(const Profile& head, double cutting_length_mm, double head_
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns_; ++i) {
       const Vec3 at{i / double{k_per_mm}, 0, j / double{k_per_mm} - double{k_margin_mm}};
-      table_.push_back(static_cast<float>(std::max(head.distance_mm(at), at.z - cutting_length_mm)));
+      table_.push_back(
+          static_cast<float>(std::max(head.distance_mm(at), at.z - cutting_length_mm)));
     }
 }
 

@@ -16,26 +16,30 @@ struct ProfilePoint {
   double r_mm = 0.0, z_mm = 0.0;
 };
 
-/// A line, or an arc of less than half a turn about `centre`, from the end of the piece before to `end`.
+/// A line, or an arc of less than half a turn about `centre`, from the end of the piece before to
+/// `end`.
 struct ProfileSegment {
   ProfilePoint end;
   bool arc = false;
   ProfilePoint centre;
 };
 
-/// A body of revolution with heights that never fall along the profile. Beyond its last point it goes on
-/// upwards as a cylinder (handle side).
+/// A body of revolution with heights that never fall along the profile. Beyond its last point it
+/// goes on upwards as a cylinder (handle side).
 class Profile {
  public:
   Profile() = default;
-  /// Starts on the axis at the tip (0, 0). Throws Error when heights fall, an arc does not fit or radii are negative.
+  /// Starts on the axis at the tip (0, 0). Throws Error when heights fall, an arc does not fit or
+  /// radii are negative.
   explicit Profile(std::vector<ProfileSegment> segments);
 
   /// Signed distance, mm, of a point in the tool frame; negative inside.
   [[nodiscard]] double distance_mm(Vec3 tool_mm) const noexcept;
   /// Radius at a height, mm (the larger one where the profile is flat).
   [[nodiscard]] double radius_mm(double z_mm) const noexcept;
-  [[nodiscard]] double length_mm() const noexcept { return segments_.empty() ? 0.0 : segments_.back().end.z_mm; }
+  [[nodiscard]] double length_mm() const noexcept {
+    return segments_.empty() ? 0.0 : segments_.back().end.z_mm;
+  }
   /// The pieces that begin below a height: the same shape there, cheaper to ask.
   [[nodiscard]] Profile below(double z_mm) const;
   [[nodiscard]] const std::vector<ProfileSegment>& segments() const noexcept { return segments_; }
@@ -72,7 +76,9 @@ class Profile {
 };
 
 // The distance is asked thousands of times for each carve: it is inline.
-constexpr double profile_cross(double ax, double ay, double bx, double by) noexcept { return ax * by - ay * bx; }
+constexpr double profile_cross(double ax, double ay, double bx, double by) noexcept {
+  return ax * by - ay * bx;
+}
 constexpr double profile_squared(double v) noexcept { return v * v; }
 
 inline double Profile::distance_to(const Piece& p, double r, double z) noexcept {
@@ -81,8 +87,8 @@ inline double Profile::distance_to(const Piece& p, double r, double z) noexcept 
     if (p.turn * profile_cross(p.a.r_mm - p.centre.r_mm, p.a.z_mm - p.centre.z_mm, vr, vz) >= 0 &&
         p.turn * profile_cross(vr, vz, p.b.r_mm - p.centre.r_mm, p.b.z_mm - p.centre.z_mm) >= 0)
       return std::fabs(std::sqrt(vr * vr + vz * vz) - p.radius);
-    return std::sqrt(
-        std::min(profile_squared(r - p.a.r_mm) + profile_squared(z - p.a.z_mm), profile_squared(r - p.b.r_mm) + profile_squared(z - p.b.z_mm)));
+    return std::sqrt(std::min(profile_squared(r - p.a.r_mm) + profile_squared(z - p.a.z_mm),
+                              profile_squared(r - p.b.r_mm) + profile_squared(z - p.b.z_mm)));
   }
   const double dr = p.b.r_mm - p.a.r_mm, dz = p.b.z_mm - p.a.z_mm;
   const double along = (r - p.a.r_mm) * dr + (z - p.a.z_mm) * dz;
@@ -92,7 +98,8 @@ inline double Profile::distance_to(const Piece& p, double r, double z) noexcept 
 
 inline double Profile::radius_on(const Piece& p, double z) noexcept {
   if (p.arc) {
-    const double side = std::sqrt(std::max(0.0, profile_squared(p.radius) - profile_squared(z - p.centre.z_mm)));
+    const double side =
+        std::sqrt(std::max(0.0, profile_squared(p.radius) - profile_squared(z - p.centre.z_mm)));
     return p.bulge ? p.centre.r_mm + side : p.centre.r_mm - side;
   }
   const double dz = p.b.z_mm - p.a.z_mm;
@@ -102,7 +109,8 @@ inline double Profile::radius_on(const Piece& p, double z) noexcept {
 
 inline bool Profile::holds(const Piece& p, double r, double z) noexcept {
   if (p.arc) {
-    const bool in_circle = profile_squared(r - p.centre.r_mm) + profile_squared(z - p.centre.z_mm) < profile_squared(p.radius);
+    const bool in_circle = profile_squared(r - p.centre.r_mm) + profile_squared(z - p.centre.z_mm) <
+                           profile_squared(p.radius);
     return p.bulge ? r <= p.centre.r_mm || in_circle : r < p.centre.r_mm && !in_circle;
   }
   const double dz = p.b.z_mm - p.a.z_mm;

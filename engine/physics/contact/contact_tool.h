@@ -23,8 +23,9 @@ struct ToolPatch {
   double lever_mm = 0;                ///< furthest sample from the tip: how far a turn moves it
 };
 
-/// A piece of the felt outline where its normal turns, in the (r, z) half plane: the arc of a ball end, the fillet of an
-/// edge, or a sharp tip (radius 0). `from` and `to` are the outward normals at its ends, counter-clockwise.
+/// A piece of the felt outline where its normal turns, in the (r, z) half plane: the arc of a ball
+/// end, the fillet of an edge, or a sharp tip (radius 0). `from` and `to` are the outward normals
+/// at its ends, counter-clockwise.
 struct TurningPiece {
   ProfilePoint centre, from, to;
   double radius_mm = 0;
@@ -38,13 +39,15 @@ struct ContactTool {
   std::uint32_t head_patches = 0;     ///< the first patches are the coated head
   double reach_mm = 0;                ///< furthest sample from the tip
 
-  /// The place on the coated head, as it is felt, that lies furthest along `way` (unit, tool frame): where a plane with
-  /// normal -way touches it. The head is convex, so there is one, exact however far apart the samples are.
+  /// The place on the coated head, as it is felt, that lies furthest along `way` (unit, tool
+  /// frame): where a plane with normal -way touches it. The head is convex, so there is one, exact
+  /// however far apart the samples are.
   [[nodiscard]] Vec3 furthest_along(Vec3 way) const noexcept;
 };
 
-/// Spreads samples at about `head_spacing_mm` (up to twice that on long heads) over the coated head, at 0.27 mm elsewhere. Each
-/// sample sits at a height of its own, so that no ring of them crosses a border in the same tick.
+/// Spreads samples at about `head_spacing_mm` (up to twice that on long heads) over the coated
+/// head, at 0.27 mm elsewhere. Each sample sits at a height of its own, so that no ring of them
+/// crosses a border in the same tick.
 [[nodiscard]] ContactTool make_contact_tool(const Bur& bur, double head_spacing_mm = 0.09);
 
 }  // namespace cavum

@@ -13,7 +13,8 @@ namespace {
 
 double violation(const HalfSpace& h, Vec3 s) noexcept { return -h.slack_mm - dot(h.normal, s); }
 
-/// Nearest point to `wanted` on the planes of 1 to 3 half spaces; false when they have no corner or a plane would pull.
+/// Nearest point to `wanted` on the planes of 1 to 3 half spaces; false when they have no corner or
+/// a plane would pull.
 bool on_planes(Vec3 wanted, const HalfSpace* const* set, int n, Vec3& step) noexcept {
   double l[3] = {0, 0, 0};
   const Vec3 a = set[0]->normal;
@@ -31,10 +32,14 @@ bool on_planes(Vec3 wanted, const HalfSpace* const* set, int n, Vec3& step) noex
     l[0] = dot(way, cross(b, edge)) / edge2;
     l[1] = dot(way, cross(edge, a)) / edge2;
   } else {
-    const Vec3 b = set[1]->normal, c = set[2]->normal, bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
-    const double volume = dot(a, bc), least = k_parallel_rad * std::sqrt(std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)}));
+    const Vec3 b = set[1]->normal, c = set[2]->normal, bc = cross(b, c), ca = cross(c, a),
+               ab = cross(a, b);
+    const double volume = dot(a, bc),
+                 least =
+                     k_parallel_rad * std::sqrt(std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)}));
     if (std::fabs(volume) < least) return false;
-    const Vec3 way = (bc * va + ca * violation(*set[1], wanted) + ab * violation(*set[2], wanted)) / volume;
+    const Vec3 way =
+        (bc * va + ca * violation(*set[1], wanted) + ab * violation(*set[2], wanted)) / volume;
     l[0] = dot(way, bc) / volume;
     l[1] = dot(way, ca) / volume;
     l[2] = dot(way, ab) / volume;
@@ -49,12 +54,14 @@ bool on_planes(Vec3 wanted, const HalfSpace* const* set, int n, Vec3& step) noex
 
 }  // namespace
 
-HalfSpaceSolution nearest_step(Vec3 wanted, std::span<const HalfSpace> half_spaces, const ActiveSet& guess) noexcept {
+HalfSpaceSolution nearest_step(Vec3 wanted, std::span<const HalfSpace> half_spaces,
+                               const ActiveSet& guess) noexcept {
   const HalfSpace* active[3] = {};
   int n_active = 0;
   Vec3 step = wanted;
   if (guess.count > 0) {
-    for (int i = 0; i < guess.count; ++i) active[i] = &half_spaces[static_cast<std::size_t>(guess.at[i])];
+    for (int i = 0; i < guess.count; ++i)
+      active[i] = &half_spaces[static_cast<std::size_t>(guess.at[i])];
     if (on_planes(wanted, active, guess.count, step))
       n_active = guess.count;
     else
@@ -62,7 +69,8 @@ HalfSpaceSolution nearest_step(Vec3 wanted, std::span<const HalfSpace> half_spac
   }
   const auto solved = [&](bool feasible) {
     HalfSpaceSolution solution{step, feasible, {n_active, {}}};
-    for (int i = 0; i < n_active; ++i) solution.active.at[i] = static_cast<int>(active[i] - half_spaces.data());
+    for (int i = 0; i < n_active; ++i)
+      solution.active.at[i] = static_cast<int>(active[i] - half_spaces.data());
     return solution;
   };
   for (int round = 0; round < 64; ++round) {
@@ -76,7 +84,8 @@ HalfSpaceSolution nearest_step(Vec3 wanted, std::span<const HalfSpace> half_spac
       }
     }
     if (worst == nullptr) return solved(true);
-    // The new basis holds the entering half space and a subset of the old ones: the first that satisfies all four.
+    // The new basis holds the entering half space and a subset of the old ones: the first that
+    // satisfies all four.
     const HalfSpace* best[3] = {};
     int n_best = 0;
     Vec3 best_step;

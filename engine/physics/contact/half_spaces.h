@@ -25,13 +25,16 @@ CAVUM_STATE(ActiveSet, count, at)
 
 struct HalfSpaceSolution {
   Vec3 step;
-  bool feasible = true;  ///< false when the half spaces exclude one another: `step` then breaks them least as found
+  bool feasible = true;  ///< false when the half spaces exclude one another: `step` then breaks
+                         ///< them least as found
   ActiveSet active;
 };
 
-/// argmin |s - wanted| over all allowed s. Active-set method: the most violated half space enters, at
-/// most three stay (their KKT conditions are solved exactly); the objective grows with each round.
-/// `guess` is tried first (that of the step before, for instance); it saves time and changes nothing else.
-[[nodiscard]] HalfSpaceSolution nearest_step(Vec3 wanted, std::span<const HalfSpace> half_spaces, const ActiveSet& guess = {}) noexcept;
+/// argmin |s - wanted| over all allowed s. Active-set method: the most violated half space enters,
+/// at most three stay (their KKT conditions are solved exactly); the objective grows with each
+/// round. `guess` is tried first (that of the step before, for instance); it saves time and changes
+/// nothing else.
+[[nodiscard]] HalfSpaceSolution nearest_step(Vec3 wanted, std::span<const HalfSpace> half_spaces,
+                                             const ActiveSet& guess = {}) noexcept;
 
 }  // namespace cavum

@@ -11,18 +11,22 @@ using namespace tuning;
 
 namespace {
 
-constexpr int k_all_places = 1 << 30;
+constexpr int k_no_limit = 1 << 30;
 
-/// Furthest that a sample at unit distance from the tip moves when the rotation changes from `a` to `b` (Frobenius norm, an upper bound).
+/// Furthest that a sample at unit distance from the tip moves when the rotation changes from `a` to
+/// `b` (Frobenius norm, an upper bound).
 double turn_bound_rad(const Mat3& a, const Mat3& b) noexcept {
   const Vec3 x = a.row_x - b.row_x, y = a.row_y - b.row_y, z = a.row_z - b.row_z;
   return std::sqrt(dot(x, x) + dot(y, y) + dot(z, z));
 }
 
-double travel_mm(const ContactState& state, double lever_mm) noexcept { return state.moved_mm + state.turned_rad * lever_mm; }
+double travel_mm(const ContactState& state, double lever_mm) noexcept {
+  return state.moved_mm + state.turned_rad * lever_mm;
+}
 
 /// Free way around the whole tool, in mm of travel; 0 when something is near.
-double tool_air_mm(const Octree& tooth, const ContactTool& tool, const Mat3& rotation, Vec3 tip) noexcept {
+double tool_air_mm(const Octree& tooth, const ContactTool& tool, const Mat3& rotation,
+                   Vec3 tip) noexcept {
   const double half = 0.5 * tool.reach_mm;
   const Vec3 middle = tip + rotation * Vec3{0, 0, half};
   for (const double margin : {4.0, 1.0}) {
@@ -45,16 +49,20 @@ void reset(ContactState& state, const ContactTool& tool, int bur) noexcept {
 }
 
 /// So far from where they were gathered half spaces stand in for the surface.
-double linear_mm(double leaf_mm) noexcept { return std::max(k_linear_leaves * leaf_mm, k_linear_mm); }
+double linear_mm(double leaf_mm) noexcept {
+  return std::max(k_linear_leaves * leaf_mm, k_linear_mm);
+}
 
 /// Room before a surface at `distance_mm`, as half spaces state it.
 double slack_mm(double distance_mm, double leaf_mm) noexcept {
   if (distance_mm >= 0.0) return distance_mm;
-  return std::max(std::min(distance_mm + k_dead_leaves * leaf_mm, 0.0), -k_deepest_leaves * leaf_mm);
+  return std::max(std::min(distance_mm + k_dead_leaves * leaf_mm, 0.0),
+                  -k_deepest_leaves * leaf_mm);
 }
 
 /// Begins to gather half spaces about a place, for steps of `reach_mm` and small moves.
-void begin_gathering(const Octree& tooth, Vec3 at_mm, double reach_mm, const ContactState& state, GatheredContact& g) noexcept {
+void begin_gathering(const Octree& tooth, Vec3 at_mm, double reach_mm, const ContactState& state,
+                     GatheredContact& g) noexcept {
   const double leaf = tooth.leaf_mm();
   g.at_mm = at_mm;
   g.turned_rad = state.turned_rad;
@@ -65,9 +73,10 @@ void begin_gathering(const Octree& tooth, Vec3 at_mm, double reach_mm, const Con
   g.next_patch = g.next_sample = 0;
 }
 
-/// Goes on to collect a half space for each sample that a step could bring into contact; true when all have been asked, false after `most` places.
-bool go_on_gathering(const Octree& tooth, const ContactTool& tool, int most, ContactState& state, GatheredContact& g,
-                     ContactScratch& scratch) noexcept {
+/// Goes on to collect a half space for each sample that a step could bring into contact; true when
+/// all have been asked, false after `most` places.
+bool go_on_gathering(const Octree& tooth, const ContactTool& tool, int most, ContactState& state,
+                     GatheredContact& g, ContactScratch& scratch) noexcept {
   const double leaf = tooth.leaf_mm(), off_mm = length(g.at_mm - state.proxy_mm);
   const int last_looked_up = scratch.looked_up + most;
   for (; g.next_patch < tool.patches.size(); ++g.next_patch) {
@@ -101,78 +110,97 @@ bool go_on_gathering(const Octree& tooth, const ContactTool& tool, int most, Con
   return true;
 }
 
-/// Makes sure that the half spaces in force are good for a step of `reach_mm` from where the proxy is.
-void gather(const Octree& tooth, const ContactTool& tool, double reach_mm, ContactState& state, ContactScratch& scratch) noexcept {
+/// Makes sure that the half spaces in force are good for a step of `reach_mm` from where the proxy
+/// is.
+void gather(const Octree& tooth, const ContactTool& tool, double reach_mm, ContactState& state,
+            ContactScratch& scratch) noexcept {
   GatheredContact& g = state.gathered;
   const double moved_mm = length(state.proxy_mm - g.at_mm);
-  if (g.turned_rad == state.turned_rad && (g.edit == tooth.edit_hash() || state.catching_up) && moved_mm <= linear_mm(tooth.leaf_mm()) &&
-      g.reach_mm >= reach_mm + moved_mm)
+  if (g.turned_rad == state.turned_rad && (g.edit == tooth.edit_hash() || state.catching_up) &&
+      moved_mm <= linear_mm(tooth.leaf_mm()) && g.reach_mm >= reach_mm + moved_mm)
     return;
   begin_gathering(tooth, state.proxy_mm, reach_mm, state, g);
-  (void)go_on_gathering(tooth, tool, k_all_places, state, g, scratch);
+  (void)go_on_gathering(tooth, tool, k_no_limit, state, g, scratch);
   state.active = {};
   state.catching_up = false;
 }
 
-/// How far the opened place lies ahead of the proxy, mm; 0 when the proxy cannot simply take it: it has gone elsewhere, or the device is not that
-/// far.
-double opened_way_mm(const OpenedPlace& opened, Vec3 device_mm, double leaf_mm, const ContactState& state) noexcept {
+/// How far the opened place lies ahead of the proxy, mm; 0 when the proxy cannot simply take it: it
+/// has gone elsewhere, or the device is not that far.
+double opened_travel_mm(const OpenedPosition& opened, Vec3 device_mm, double leaf_mm,
+                        const ContactState& state) noexcept {
   if (opened.turned_rad != state.turned_rad) return 0.0;
   const Vec3 way = opened.tip_mm - state.proxy_mm;
   const double ahead_mm = -dot(way, state.normal);
   const bool beyond = ahead_mm <= 0.0 || ahead_mm > dot(state.proxy_mm - device_mm, state.normal);
-  return beyond || length(way + state.normal * ahead_mm) > k_aside_leaves * leaf_mm ? 0.0 : ahead_mm;
+  return beyond || length(way + state.normal * ahead_mm) > k_aside_leaves * leaf_mm ? 0.0
+                                                                                    : ahead_mm;
 }
 
 /// After a carve: gathers anew a part in each tick, and then follows.
-void catch_up(const Octree& tooth, const ContactTool& tool, Vec3 device_mm, double reach_mm, ContactState& state, ContactScratch& scratch) noexcept {
-  if (!state.touching || state.gathered.edit == tooth.edit_hash() || state.gathered.turned_rad != state.turned_rad) {
+void catch_up(const Octree& tooth, const ContactTool& tool, Vec3 device_mm, double reach_mm,
+              ContactState& state, ContactScratch& scratch) noexcept {
+  if (!state.touching || state.gathered.edit == tooth.edit_hash() ||
+      state.gathered.turned_rad != state.turned_rad) {
     state.catching_up = false;
     return;
   }
   GatheredContact& coming = state.coming;
   const double leaf = tooth.leaf_mm();
   if (!state.catching_up) {
-    begin_gathering(tooth, opened_way_mm(state.opened, device_mm, leaf, state) > 0.0 ? state.opened.tip_mm : state.proxy_mm, reach_mm, state, coming);
+    begin_gathering(tooth,
+                    opened_travel_mm(state.opened, device_mm, leaf, state) > 0.0
+                        ? state.opened.tip_mm
+                        : state.proxy_mm,
+                    reach_mm, state, coming);
     state.catching_up = true;
   }
   if (!go_on_gathering(tooth, tool, k_part_looked_up, state, coming, scratch)) return;
   state.catching_up = false;
   std::swap(state.gathered, state.coming);
   state.active = {};
-  const double way_mm = opened_way_mm(state.opened, device_mm, leaf, state);
+  const double moved_mm = opened_travel_mm(state.opened, device_mm, leaf, state);
   // The head has room there; neck and shank may not.
   const auto& there = state.gathered.half_spaces;
-  const bool room = std::all_of(there.begin(), there.end(), [&](const HalfSpace& h) { return h.slack_mm >= -k_room_leaves * leaf; });
-  if (way_mm > 0.0 && room && state.gathered.at_mm == state.opened.tip_mm) {
+  const bool room = std::all_of(there.begin(), there.end(), [&](const HalfSpace& h) {
+    return h.slack_mm >= -k_room_leaves * leaf;
+  });
+  if (moved_mm > 0.0 && room && state.gathered.at_mm == state.opened.tip_mm) {
     state.moved_mm += length(state.opened.tip_mm - state.proxy_mm);
     state.proxy_mm = state.opened.tip_mm;
   }
   state.opened = {};
 }
 
-/// The step from `gathered.at_mm` nearest to the wanted one. Samples alone would let the head sink in between them: where it
-/// rests, the head's own furthest place against the surface is asked too, and becomes a half space if it enters the tissue.
-HalfSpaceSolution solve(const Octree& tooth, const ContactTool& tool, Vec3 wanted, double stride_mm, ContactState& state,
-                        ContactScratch& scratch) noexcept {
+/// The step from `gathered.at_mm` nearest to the wanted one. Samples alone would let the head sink
+/// in between them: where it rests, the head's own furthest place against the surface is asked too,
+/// and becomes a half space if it enters the tissue.
+HalfSpaceSolution solve(const Octree& tooth, const ContactTool& tool, Vec3 wanted, double stride_mm,
+                        ContactState& state, ContactScratch& scratch) noexcept {
   auto solution = nearest_step(wanted, state.gathered.half_spaces, state.active);
   const double leaf = tooth.leaf_mm();
   const Vec3 since = state.proxy_mm - state.gathered.at_mm;
-  for (int round = 0; round < k_refinements && solution.feasible && solution.active.count > 0; ++round) {
+  for (int round = 0; round < k_refinements && solution.feasible && solution.active.count > 0;
+       ++round) {
     const Vec3 way = solution.step - since;
-    const double way_mm = length(way);
-    const Vec3 there = way_mm > stride_mm ? since + way * (stride_mm / way_mm) : solution.step;
+    const double moved_mm = length(way);
+    const Vec3 there = moved_mm > stride_mm ? since + way * (stride_mm / moved_mm) : solution.step;
     bool refined = false;
     for (int i = 0; i < solution.active.count; ++i) {
-      const Vec3 normal = normalized(state.gathered.half_spaces[static_cast<std::size_t>(solution.active.at[i])].normal);
+      const Vec3 normal = normalized(
+          state.gathered.half_spaces[static_cast<std::size_t>(solution.active.at[i])].normal);
       const Vec3 furthest = tool.furthest_along(state.rotation.transposed(-normal));
-      const auto s = tooth.sample(state.gathered.at_mm + there + state.rotation * furthest, scratch.cursor);
+      const auto s =
+          tooth.sample(state.gathered.at_mm + there + state.rotation * furthest, scratch.cursor);
       if (s.distance_mm >= -k_dead_leaves * leaf || dot(s.gradient, s.gradient) < 1e-3) continue;
-      if (state.gathered.half_spaces.size() >= state.gathered.samples.size() + k_refined_room) {  // begin anew; the active ones go with them
+      if (state.gathered.half_spaces.size() >=
+          state.gathered.samples.size() +
+              k_refined_room) {  // begin anew; the active ones go with them
         state.gathered.half_spaces.resize(state.gathered.samples.size());
         solution.active.count = 0;
       }
-      state.gathered.half_spaces.push_back({s.gradient, slack_mm(s.distance_mm, leaf) - dot(s.gradient, there)});
+      state.gathered.half_spaces.push_back(
+          {s.gradient, slack_mm(s.distance_mm, leaf) - dot(s.gradient, there)});
       refined = true;
     }
     if (!refined) break;
@@ -183,14 +211,17 @@ HalfSpaceSolution solve(const Octree& tooth, const ContactTool& tool, Vec3 wante
 }
 
 /// Is there nothing but air around the whole tool on its way to the device?
-bool way_is_free(const Octree& tooth, const ContactTool& tool, Vec3 device_mm, ContactState& state) noexcept {
-  const double way_mm = length(device_mm - state.proxy_mm), travel = travel_mm(state, tool.reach_mm);
-  if (state.clear.tool_air_until_mm <= travel + way_mm && state.clear.tool_near_until_mm <= travel) {
+bool path_is_free(const Octree& tooth, const ContactTool& tool, Vec3 device_mm,
+                  ContactState& state) noexcept {
+  const double moved_mm = length(device_mm - state.proxy_mm),
+               travel = travel_mm(state, tool.reach_mm);
+  if (state.clear.tool_air_until_mm <= travel + moved_mm &&
+      state.clear.tool_near_until_mm <= travel) {
     const double air_mm = tool_air_mm(tooth, tool, state.rotation, state.proxy_mm);
     state.clear.tool_air_until_mm = travel + air_mm;
     if (air_mm == 0.0) state.clear.tool_near_until_mm = travel + k_stays_near_mm;
   }
-  return travel + way_mm < state.clear.tool_air_until_mm;
+  return travel + moved_mm < state.clear.tool_air_until_mm;
 }
 
 /// One step of the proxy.
@@ -202,17 +233,21 @@ struct ProxyStep {
   bool back = false;     ///< and it leads back the way the one before came
 };
 
-/// The way to the device as far as the tooth and the stride allow. One back makes the stride shorter.
-ProxyStep next_step(const Octree& tooth, const ContactTool& tool, Vec3 rest, ContactState& state, ContactScratch& scratch) noexcept {
+/// The way to the device as far as the tooth and the stride allow. One back makes the stride
+/// shorter.
+ProxyStep next_step(const Octree& tooth, const ContactTool& tool, Vec3 rest, ContactState& state,
+                    ContactScratch& scratch) noexcept {
   const double leaf = tooth.leaf_mm();
   double& stride = state.stride_mm;
   gather(tooth, tool, std::min(length(rest), stride) + k_gather_more_leaves * leaf, state, scratch);
-  // The whole way is projected, and what is left of it shortened: a deep push must not hold back a slide.
-  // The half spaces stand about the place where they were gathered: so do the steps.
+  // The whole way is projected, and what is left of it shortened: a deep push must not hold back a
+  // slide. The half spaces stand about the place where they were gathered: so do the steps.
   const Vec3 since = state.proxy_mm - state.gathered.at_mm;
   auto solution = solve(tooth, tool, since + rest, stride, state, scratch);
-  if (!solution.feasible) {  // squeezed between walls: do not enter them further, whatever the depth so far
-    for (auto& h : state.gathered.half_spaces) h.slack_mm = std::max(h.slack_mm, k_squeeze_leaves * leaf);
+  if (!solution.feasible) {  // squeezed between walls: do not enter them further, whatever the
+                             // depth so far
+    for (auto& h : state.gathered.half_spaces)
+      h.slack_mm = std::max(h.slack_mm, k_squeeze_leaves * leaf);
     state.gathered.turned_rad = -1.0;
     solution = nearest_step(since + rest, state.gathered.half_spaces);
   }
@@ -232,15 +267,19 @@ ProxyStep next_step(const Octree& tooth, const ContactTool& tool, Vec3 rest, Con
 }
 
 /// Moves the proxy towards the device, near the tooth; true when the tooth holds it before.
-bool approach(const Octree& tooth, const ContactTool& tool, Vec3 device_mm, ContactState& state, ContactScratch& scratch, bool& on_its_way) noexcept {
-  // A tool at rest in its hole needs to look around only a little; one on its way takes whole leaves. Where the surface turns under a step
-  // the next one leads back: less far, or the proxy would go forth and back for ever.
+bool approach(const Octree& tooth, const ContactTool& tool, Vec3 device_mm, ContactState& state,
+              ContactScratch& scratch, bool& still_moving) noexcept {
+  // A tool at rest in its hole needs to look around only a little; one on its way takes whole
+  // leaves. Where the surface turns under a step the next one leads back: less far, or the proxy
+  // would go forth and back for ever.
   const double leaf = tooth.leaf_mm();
   double& stride = state.stride_mm;
   if (!state.touching) stride = leaf;
   bool strode = false, blocked = false;
   int times_back = 0;
-  catch_up(tooth, tool, device_mm, std::min(length(device_mm - state.proxy_mm), stride) + k_gather_more_leaves * leaf, state, scratch);
+  catch_up(tooth, tool, device_mm,
+           std::min(length(device_mm - state.proxy_mm), stride) + k_gather_more_leaves * leaf,
+           state, scratch);
   for (int i = 0; i < k_max_steps; ++i) {
     const Vec3 rest = device_mm - state.proxy_mm;
     const ProxyStep s = next_step(tooth, tool, rest, state, scratch);
@@ -253,8 +292,9 @@ bool approach(const Octree& tooth, const ContactTool& tool, Vec3 device_mm, Cont
     state.last_step_mm = s.step;
     strode |= s.is_long;
     if (s.is_long && !s.back) stride = std::min(k_longer * stride, leaf);
-    on_its_way = i + 1 == k_max_steps || scratch.looked_up > (times_back > 1 ? k_max_going_back : k_max_looked_up);
-    if (on_its_way) break;
+    still_moving = i + 1 == k_max_steps ||
+                   scratch.looked_up > (times_back > 1 ? k_max_going_back : k_max_looked_up);
+    if (still_moving) break;
   }
   if (!strode) {  // at rest
     stride = std::max(k_shorter * stride, k_resting_stride * leaf);
@@ -293,8 +333,8 @@ ContactScratch make_contact_scratch(const std::vector<ContactTool>& tray) {
   return scratch;
 }
 
-ContactResult solve_proxy(const Octree& tooth, const ContactTool& tool, int bur, const Pose& device, ContactState& state,
-                          ContactScratch& scratch) noexcept {
+ContactResult solve_proxy(const Octree& tooth, const ContactTool& tool, int bur, const Pose& device,
+                          ContactState& state, ContactScratch& scratch) noexcept {
   const Vec3 before = state.proxy_mm;
   scratch.looked_up = 0;
   const Mat3 turned = rotation(device.rotation);
@@ -304,19 +344,19 @@ ContactResult solve_proxy(const Octree& tooth, const ContactTool& tool, int bur,
 
   ContactResult result;
   bool blocked = false;
-  result.in_air = way_is_free(tooth, tool, device.tip_mm, state);
+  result.in_air = path_is_free(tooth, tool, device.tip_mm, state);
   if (result.in_air) {
     state.moved_mm += length(device.tip_mm - state.proxy_mm);
     state.proxy_mm = device.tip_mm;
   } else {
-    blocked = approach(tooth, tool, device.tip_mm, state, scratch, result.on_its_way);
+    blocked = approach(tooth, tool, device.tip_mm, state, scratch, result.still_moving);
   }
 
   result.moved_mm = state.proxy_mm - before;
   const Vec3 out = state.proxy_mm - device.tip_mm;
   result.penetration_mm = length(out);
   result.touching = blocked && result.penetration_mm > k_settled_mm;
-  result.on_its_way &= result.touching;
+  result.still_moving &= result.touching;
   if (result.touching)
     state.normal = out / result.penetration_mm;
   else

@@ -13,7 +13,8 @@ using namespace tuning;
 namespace {
 
 /// Means of k, c, 1/τ and 1/K over the solid (or the void) tissues of a mix, and their share in it.
-double mean_of(const Octree& tooth, const TissueMix& mix, const TissueConstants* tissue, bool solid, TissueConstants& mean) noexcept {
+double mean_of(const Octree& tooth, const TissueMix& mix, const TissueConstants* tissue, bool solid,
+               TissueConstants& mean) noexcept {
   double share = 0.0;
   mean = {};
   if (mix.count == 1) {
@@ -41,16 +42,20 @@ double mean_of(const Octree& tooth, const TissueMix& mix, const TissueConstants*
 }
 
 /// What was found the last time is good enough for this tick.
-bool still_hold(double leaf_mm, Vec3 tip, const ContactState& state, const ContactScratch& scratch, TouchedMemory& last) noexcept {
+bool still_hold(double leaf_mm, Vec3 tip, const ContactState& state, const ContactScratch& scratch,
+                TouchedMemory& last) noexcept {
   const Vec3 swung = state.normal - last.normal, moved = tip - last.tip_mm;
   if (last.turned_rad != state.turned_rad || dot(swung, swung) >= k_same_normal2) return false;
   const double moved2 = dot(moved, moved);
-  const double same_mm = std::max(k_same_means_leaves * leaf_mm, k_same_means_mm), late_mm = std::max(k_late_means_leaves * leaf_mm, k_late_means_mm);
+  const double same_mm = std::max(k_same_means_leaves * leaf_mm, k_same_means_mm),
+               late_mm = std::max(k_late_means_leaves * leaf_mm, k_late_means_mm);
   if (last.edit == state.gathered.edit && moved2 < same_mm * same_mm) return true;
-  // After a carve all is gathered anew, which is enough work for a tick. The tip, as the surface will have receded, stands where it
-  // stood: what it touches may be looked up in the next tick, or, in one tissue, when that is done.
+  // After a carve all is gathered anew, which is enough work for a tick. The tip, as the surface
+  // will have receded, stands where it stood: what it touches may be looked up in the next tick,
+  // or, in one tissue, when that is done.
   const bool waits = state.catching_up && last.even;
-  if (!(waits || (scratch.looked_up > 0 && !last.late)) || moved2 >= late_mm * late_mm) return false;
+  if (!(waits || (scratch.looked_up > 0 && !last.late)) || moved2 >= late_mm * late_mm)
+    return false;
   last.late = !waits;
   return true;
 }
@@ -58,7 +63,8 @@ bool still_hold(double leaf_mm, Vec3 tip, const ContactState& state, const Conta
 /// Sums over the places of a tool whose tip is, or will be, at `tip`.
 class Touching {
  public:
-  Touching(const Octree& tooth, const ContactTool& tool, const VoidMap& voids, const TissueConstants* tissue, Vec3 tip, const ContactState& state,
+  Touching(const Octree& tooth, const ContactTool& tool, const VoidMap& voids,
+           const TissueConstants* tissue, Vec3 tip, const ContactState& state,
            ContactScratch& scratch)
       : tooth_(tooth),
         tool_(tool),
@@ -82,20 +88,25 @@ class Touching {
     bool near = void_near(tool_.patches[patch]);
     for (std::size_t n = 0; n < gathered.samples.size(); ++n) {
       const std::uint32_t i = gathered.samples[n];
-      while (i >= tool_.patches[patch].last) near = void_near(tool_.patches[++patch]);  // samples stand in the order of their patches
+      while (i >= tool_.patches[patch].last)
+        near = void_near(tool_.patches[++patch]);  // samples stand in the order of their patches
       const auto& s = tool_.samples[i];
       const bool head = i < head_end_;
       if (head) scratch_.counted[i] = 1;
       const double seen = -dot(state_.rotation * s.normal, state_.normal);
       const auto& h = gathered.half_spaces[n];
-      if (seen > 0.0) count(s.at_mm, s.area_mm2 * seen, seen, h.slack_mm + dot(h.normal, since), head, near);
+      if (seen > 0.0)
+        count(s.at_mm, s.area_mm2 * seen, seen, h.slack_mm + dot(h.normal, since), head, near);
     }
   }
 
-  /// A fine tip may touch between its samples: the furthest place counts a little, and alone if need be.
+  /// A fine tip may touch between its samples: the furthest place counts a little, and alone if
+  /// need be.
   void count_furthest() noexcept {
-    const Vec3 at_tool = tool_.furthest_along(state_.rotation.transposed(-state_.normal)), furthest = tip_ + state_.rotation * at_tool;
-    count(at_tool, k_furthest_mm2, 1.0, tooth_.sample(furthest, scratch_.cursor).distance_mm, true, true);
+    const Vec3 at_tool = tool_.furthest_along(state_.rotation.transposed(-state_.normal)),
+               furthest = tip_ + state_.rotation * at_tool;
+    count(at_tool, k_furthest_mm2, 1.0, tooth_.sample(furthest, scratch_.cursor).distance_mm, true,
+          true);
   }
 
   /// Samples of the head that are far from the surface, and have void tissue before them.
@@ -109,7 +120,8 @@ class Touching {
         if (seen <= 0.0) continue;
         const Vec3 at = tip_ + state_.rotation * s.at_mm + ahead_;
         if (tooth_.tissue_at(at, scratch_.cursor) != k_air)
-          count_void(s.area_mm2 * seen * mean_of(tooth_, tooth_.mix(at, scratch_.cursor), tissue_, false, void_mean_));
+          count_void(s.area_mm2 * seen *
+                     mean_of(tooth_, tooth_.mix(at, scratch_.cursor), tissue_, false, void_mean_));
       }
     }
   }
@@ -130,11 +142,14 @@ class Touching {
     m.grinding.head_share = ground_area_ / cut_area_;
     return m;
   }
-  [[nodiscard]] bool even() const noexcept { return !sums_.void_tissue && least_n_per_mm_ > k_even_share * most_n_per_mm_; }
+  [[nodiscard]] bool even() const noexcept {
+    return !sums_.void_tissue && least_n_per_mm_ > k_even_share * most_n_per_mm_;
+  }
 
  private:
   [[nodiscard]] bool void_near(const ToolPatch& patch) const noexcept {
-    return voids_.clear_mm(tip_ + state_.rotation * patch.centre_mm) <= patch.radius_mm + k_void_near_leaves * leaf_mm_;
+    return voids_.clear_mm(tip_ + state_.rotation * patch.centre_mm) <=
+           patch.radius_mm + k_void_near_leaves * leaf_mm_;
   }
 
   void count_void(double area) noexcept {
@@ -145,16 +160,20 @@ class Touching {
     sums_.of.damping_n_s_per_mm += area * void_mean_.damping_n_s_per_mm;
   }
 
-  /// Adds the place `at_tool` (tool frame) of the tool's surface that sees `area` along the normal, `gap_mm` before the solid surface; `cosine` of
-  /// the angle between its own normal and that.
-  void count(Vec3 at_tool, double area, double cosine, double gap_mm, bool head, bool void_near) noexcept {
+  /// Adds the place `at_tool` (tool frame) of the tool's surface that sees `area` along the normal,
+  /// `gap_mm` before the solid surface; `cosine` of the angle between its own normal and that.
+  void count(Vec3 at_tool, double area, double cosine, double gap_mm, bool head,
+             bool void_near) noexcept {
     const Vec3 at = tip_ + state_.rotation * at_tool;
-    double touch = std::clamp(1.0 - (gap_mm - k_touch_leaves * leaf_mm_) / (k_fade_leaves * leaf_mm_), 0.0, 1.0);
+    double touch = std::clamp(
+        1.0 - (gap_mm - k_touch_leaves * leaf_mm_) / (k_fade_leaves * leaf_mm_), 0.0, 1.0);
     if (touch <= 0.0 && !(head && void_near)) return;
     const TissueMix mix = tooth_.mix(at + ahead_, scratch_.cursor);
     double solid_share = mean_of(tooth_, mix, tissue_, true, solid_mean_);
     const double void_share = mean_of(tooth_, mix, tissue_, false, void_mean_);
-    if (touch > 0.0 && solid_share <= 0.0 && mean_of(tooth_, tooth_.mix(at + close_, scratch_.cursor), tissue_, true, solid_mean_) <= 0.0)
+    if (touch > 0.0 && solid_share <= 0.0 &&
+        mean_of(tooth_, tooth_.mix(at + close_, scratch_.cursor), tissue_, true, solid_mean_) <=
+            0.0)
       touch = 0.0;
     if (touch > 0.0) {
       const double touched = area * touch;
@@ -165,7 +184,8 @@ class Touching {
         sums_.of.recession_per_s += touched * solid_mean_.recession_per_s;
         if (solid_mean_.resistance_n_per_mm2 > 0.0) count_ground(at_tool, touched, cosine);
       }
-      // a sheet over air holds the tool whole; one over void tissue only as far as there is solid tissue ahead
+      // a sheet over air holds the tool whole; one over void tissue only as far as there is solid
+      // tissue ahead
       solid_share = void_share > 0.0 ? solid_share / (solid_share + void_share) : 1.0;
       solid_area_ += touched * solid_share;
       sums_.of.stiffness_n_per_mm += touched * solid_share * solid_mean_.stiffness_n_per_mm;
@@ -179,7 +199,9 @@ class Touching {
   void count_ground(Vec3 at_tool, double touched, double cosine) noexcept {
     const double resisted = touched * solid_mean_.resistance_n_per_mm2;
     sums_.grinding.sliding_n += resisted;
-    sums_.grinding.per_turn_n_per_mm += resisted * cosine / std::max(k_min_radius_mm, std::sqrt(at_tool.x * at_tool.x + at_tool.y * at_tool.y));
+    sums_.grinding.per_turn_n_per_mm +=
+        resisted * cosine /
+        std::max(k_min_radius_mm, std::sqrt(at_tool.x * at_tool.x + at_tool.y * at_tool.y));
     ground_area_ += touched;
   }
 
@@ -195,13 +217,16 @@ class Touching {
   const std::uint32_t head_end_;
   TouchedMeans sums_;
   TissueConstants solid_mean_, void_mean_;  // of the last place
-  double cut_area_ = 0.0, ground_area_ = 0.0, solid_area_ = 0.0, void_area_ = 0.0, least_n_per_mm_ = 1e9, most_n_per_mm_ = 0.0;
+  double cut_area_ = 0.0, ground_area_ = 0.0, solid_area_ = 0.0, void_area_ = 0.0,
+         least_n_per_mm_ = 1e9, most_n_per_mm_ = 0.0;
 };
 
 }  // namespace
 
-TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const VoidMap& voids, const TissueConstants* tissue, double recession_mm,
-                           const ContactState& contact, TouchedMemory& state, ContactScratch& scratch) noexcept {
+TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const VoidMap& voids,
+                           const TissueConstants* tissue, double recession_mm,
+                           const ContactState& contact, TouchedMemory& state,
+                           ContactScratch& scratch) noexcept {
   const Vec3 tip = contact.proxy_mm - contact.normal * recession_mm;
   if (still_hold(tooth.leaf_mm(), tip, contact, scratch, state)) return state.means;
   state.late = false;

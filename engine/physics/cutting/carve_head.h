@@ -42,11 +42,14 @@ void drop_carving(HeadCarving& carving) noexcept;
 enum class CarvingStep { under_way, done, no_room };
 /// Work enough for any carve.
 inline constexpr int k_at_once = 1 << 30;
-/// Works `work` units (about 15 ns each, see Octree::plan) on the carve under way; when all is worked out, the next call makes it: it
-/// turns every leaf inside the head to air and raises the surface distance around it. Removed leaves are appended to `removed` within
-/// its capacity. With `k_at_once` a single call does everything; a very large carve is otherwise made in parts. A head that only moved on since
-/// the last carve is carved on its leading side alone: behind it nothing can change, for all heads are convex.
-/// `no_room`: part of the head was not carved, and the carving is over.
-CarvingStep go_on_carving(HeadCarving& carving, Octree& tooth, const Bur& head, int work, std::vector<RemovedLeaf>& removed) noexcept;
+/// Works `work` units (about 15 ns each, see Octree::plan) on the carve under way; when all is
+/// worked out, the next call makes it: it turns every leaf inside the head to air and raises the
+/// surface distance around it. Removed leaves are appended to `removed` within its capacity. With
+/// `k_at_once` a single call does everything; a very large carve is otherwise made in parts. A head
+/// that only moved on since the last carve is carved on its leading side alone: behind it nothing
+/// can change, for all heads are convex. `no_room`: part of the head was not carved, and the
+/// carving is over.
+CarvingStep go_on_carving(HeadCarving& carving, Octree& tooth, const Bur& head, int work,
+                          std::vector<RemovedLeaf>& removed) noexcept;
 
 }  // namespace cavum

@@ -1,5 +1,6 @@
-// The terms of a force model at work. Along a feed they simply add up. In the servo, the tip moves in space:
-// terms of the tissue act along the contact normal, drag acts against the tip's motion, in air too.
+// The terms of a force model at work. Along a feed they simply add up. In the servo, the tip moves
+// in space: terms of the tissue act along the contact normal, drag acts against the tip's motion,
+// in air too.
 #pragma once
 
 #include <span>
@@ -15,10 +16,12 @@ namespace cavum {
 inline constexpr std::size_t k_max_terms = 8;
 using ForceTerms = std::vector<ForceTermPtr>;  ///< at most k_max_terms
 
-/// Force along a feed, N, resisting positive: F = max(0, k·X + c·V + Σ tissue) + Σ drag. For rigs: `in` with
-/// X, V, k, c, rpm, dt and touching set; speed is V and the Voigt force is filled in here. `memory` has one entry for each
-/// term, zero before the first sample. In air (not touching) give V all the same: drag acts there too.
-[[nodiscard]] double force_along_feed_n(const ForceTerms& terms, TermInput in, std::span<TermMemory> memory) noexcept;
+/// Force along a feed, N, resisting positive: F = max(0, k·X + c·V + Σ tissue) + Σ drag. For rigs:
+/// `in` with X, V, k, c, rpm, dt and touching set; speed is V and the Voigt force is filled in
+/// here. `memory` has one entry for each term, zero before the first sample. In air (not touching)
+/// give V all the same: drag acts there too.
+[[nodiscard]] double force_along_feed_n(const ForceTerms& terms, TermInput in,
+                                        std::span<TermMemory> memory) noexcept;
 
 /// What the terms remember in the servo.
 struct TermsState {
@@ -26,8 +29,9 @@ struct TermsState {
   Vec3 velocity_mm_s;     ///< of the tip, filtered
   Vec3 stretch_n;         ///< force of the spring that drag is rendered through, along the motion
   std::array<TermMemory, k_max_terms> memory{};
-  bool counts_removed = false;                      ///< a term looks at what was removed
-  std::array<std::uint32_t, 256> removed_leaves{};  ///< by each bur of the tray; 0 unless `counts_removed`
+  bool counts_removed = false;  ///< a term looks at what was removed
+  std::array<std::uint32_t, 256>
+      removed_leaves{};  ///< by each bur of the tray; 0 unless `counts_removed`
 };
 /// Of terms that are not in use nothing counts.
 template <class Visit>
@@ -47,11 +51,12 @@ struct TermsForce {
   bool finite = true;     ///< false: a term gave something else, and counted as zero
 };
 
-/// One tick, after the tip moved by `moved_mm`. Drag such as Fc·tanh(V/v0) is far too steep for a device that samples
-/// (Fc/v0 = 260 N·s/m at 0.26 N and 1 mm/s; docs/physics.md section 7). So it is rendered through a spring Ks in series, as the
-/// damper of the tissue is: z' = Ks·(V − u), drag(u) = z, integrated implicitly. At constant speed this is the law
-/// itself; it holds like stiction, slides at the law's force, and gives back no more than it took.
-[[nodiscard]] TermsForce apply_terms(const ForceTerms& terms, const RenderingModel& rendering, TermInput in, Vec3 moved_mm,
-                                     TermsState& state) noexcept;
+/// One tick, after the tip moved by `moved_mm`. Drag such as Fc·tanh(V/v0) is far too steep for a
+/// device that samples (Fc/v0 = 260 N·s/m at 0.26 N and 1 mm/s; docs/physics.md section 7). So it
+/// is rendered through a spring Ks in series, as the damper of the tissue is: z' = Ks·(V − u),
+/// drag(u) = z, integrated implicitly. At constant speed this is the law itself; it holds like
+/// stiction, slides at the law's force, and gives back no more than it took.
+[[nodiscard]] TermsForce apply_terms(const ForceTerms& terms, const RenderingModel& rendering,
+                                     TermInput in, Vec3 moved_mm, TermsState& state) noexcept;
 
 }  // namespace cavum

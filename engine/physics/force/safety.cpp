@@ -7,7 +7,8 @@
 
 namespace cavum {
 
-Vec3 make_safe(const SafetyLimits& limits, SafetyState& state, Vec3 wanted_n, bool fresh, double dt_s, std::uint16_t& notices) noexcept {
+Vec3 make_safe(const SafetyLimits& limits, SafetyState& state, Vec3 wanted_n, bool fresh,
+               double dt_s, std::uint16_t& notices) noexcept {
   if (!is_finite(wanted_n)) {
     wanted_n = {};
     notices |= k_notice_not_finite;
@@ -19,7 +20,8 @@ Vec3 make_safe(const SafetyLimits& limits, SafetyState& state, Vec3 wanted_n, bo
   }
   double cap_n = limits.peak_n;
   const double given_n = length(state.force_n);
-  state.used_budget_n_s = std::clamp(state.used_budget_n_s + (given_n - limits.continuous_n) * dt_s, 0.0, limits.sustained_budget_n_s);
+  state.used_budget_n_s = std::clamp(state.used_budget_n_s + (given_n - limits.continuous_n) * dt_s,
+                                     0.0, limits.sustained_budget_n_s);
   // the last tenth of the budget narrows the cap, so that the force sinks instead of dropping
   const double left = 1.0 - state.used_budget_n_s / limits.sustained_budget_n_s;
   if (left < 0.1) {

@@ -1,5 +1,5 @@
-// The force terms that there are, by name; each is a record in term_laws.h. Its parameters with their ranges are data, so that reading, writing and
-// fitting need no code of their own.
+// The force terms that there are, by name; each is a record in term_laws.h. Its parameters with
+// their ranges are data, so that reading, writing and fitting need no code of their own.
 #pragma once
 
 #include <memory>
@@ -37,13 +37,16 @@ struct TermKind {
 /// nullptr when there is none of that name.
 [[nodiscard]] const TermKind* find_term_kind(const std::string& name);
 
-/// A term from its parameters; those not given take their defaults. Throws Error(where, ...) on an unknown kind or
-/// parameter, one missing, or one out of range.
-[[nodiscard]] ForceTermPtr make_force_term(const std::string& kind, const std::vector<std::pair<std::string, double>>& parameters,
-                                           const std::string& where);
-/// One table of [[terms]]. Throws Error(where:line:column, ...), naming the kinds that there are when it is another.
+/// A term from its parameters; those not given take their defaults. Throws Error(where, ...) on an
+/// unknown kind or parameter, one missing, or one out of range.
+[[nodiscard]] ForceTermPtr make_force_term(
+    const std::string& kind, const std::vector<std::pair<std::string, double>>& parameters,
+    const std::string& where);
+/// One table of [[terms]]. Throws Error(where:line:column, ...), naming the kinds that there are
+/// when it is another.
 [[nodiscard]] ForceTermPtr read_force_term(const toml::table& table, const std::string& where);
 /// The same as text: "[[terms]]\nkind = …\n", to be put at the end of a force model.
-[[nodiscard]] std::string force_term_toml(const std::string& kind, const std::vector<std::pair<std::string, double>>& parameters);
+[[nodiscard]] std::string force_term_toml(
+    const std::string& kind, const std::vector<std::pair<std::string, double>>& parameters);
 
 }  // namespace cavum

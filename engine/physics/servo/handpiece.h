@@ -1,5 +1,6 @@
-// The handpiece: how fast the bur turns under the pedal, and under what it grinds. It follows its pedal with a lag, and stops at once when
-// nobody knows where the pedal is. With a drive (force_model.h) it slows down under load and stalls.
+// The handpiece: how fast the bur turns under the pedal, and under what it grinds. It follows its
+// pedal with a lag, and stops at once when nobody knows where the pedal is. With a drive
+// (force_model.h) it slows down under load and stalls.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +18,12 @@ struct Handpiece {
 };
 CAVUM_STATE(Handpiece, rpm, load_n_mm)
 
-/// One tick, implicit Euler. A pedal that is not known stops it in this tick. Without a drive: rpm' = (pedal · max_rpm − rpm)/spin_up.
-/// With one: rpm' = max_rpm/spin_up · (clamp((pedal · max_rpm − rpm)/slip, −1, 1) − load/torque), never below 0: the rotor of which spin_up is the
-/// time from standstill to max_rpm under the whole torque.
-void update_handpiece(const ServoConfig& config, const HandpieceDrive& drive, const TickInput& input, Handpiece& state) noexcept;
+/// One tick, implicit Euler. A pedal that is not known stops it in this tick. Without a drive: rpm'
+/// = (pedal · max_rpm − rpm)/spin_up. With one: rpm' = max_rpm/spin_up · (clamp((pedal · max_rpm −
+/// rpm)/slip, −1, 1) − load/torque), never below 0: the rotor of which spin_up is the time from
+/// standstill to max_rpm under the whole torque.
+void update_handpiece(const ServoConfig& config, const HandpieceDrive& drive,
+                      const TickInput& input, Handpiece& state) noexcept;
 
 /// Does it turn fast enough to cut?
 [[nodiscard]] bool turns(const ServoConfig& config, const Handpiece& state) noexcept;

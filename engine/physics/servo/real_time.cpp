@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "engine/base/error.h"
-#include "engine/base/said_by.h"
+#include "engine/base/message_from.h"
 #include "engine/base/system_error.h"
 
 namespace cavum {
@@ -28,8 +28,15 @@ struct RealTimeServo::Loop {
   std::atomic<std::int64_t> alive_ns{0}, guard_cuts{0};
   std::thread thread, guard;
 
-  Loop(const ServoModel& m, ServoState& s, ServoDevice& d, TickStream& t, const TickInput& first, const RealTimeOptions& o)
-      : model(m), state(s), device(d), stream(t), options(o), period_ns(std::llround(m.config.tick_s * 1e9)), input(first) {}
+  Loop(const ServoModel& m, ServoState& s, ServoDevice& d, TickStream& t, const TickInput& first,
+       const RealTimeOptions& o)
+      : model(m),
+        state(s),
+        device(d),
+        stream(t),
+        options(o),
+        period_ns(std::llround(m.config.tick_s * 1e9)),
+        input(first) {}
 
   /// One step, if it can be handed over. Returns false without room.
   bool take_step(std::int64_t due_ns, TickOutput& output) noexcept {
@@ -58,7 +65,8 @@ struct RealTimeServo::Loop {
   void make_up_for(std::int64_t due_ns) noexcept {
     silent_s += model.config.tick_s;
     input.flags = static_cast<std::uint16_t>(input.flags & ~(k_stylus_fresh | k_stylus_fault));
-    if (silent_s > model.config.limits.watchdog_s) input.flags = static_cast<std::uint16_t>(input.flags & ~k_pedal_fresh);
+    if (silent_s > model.config.limits.watchdog_s)
+      input.flags = static_cast<std::uint16_t>(input.flags & ~k_pedal_fresh);
     TickOutput unsent;
     if (take_step(due_ns, unsent)) ++report.made_up;
   }
@@ -66,7 +74,8 @@ struct RealTimeServo::Loop {
   void read_and_step(std::int64_t due_ns, std::int64_t periods) {
     doing = ServoFault::reading;
     const DeviceReading r = device.read(static_cast<double>(periods) * model.config.tick_s);
-    constexpr auto k_of_device = static_cast<std::uint16_t>(k_stylus_fresh | k_pedal_fresh | k_button_1 | k_button_2 | k_hold);
+    constexpr auto k_of_device = static_cast<std::uint16_t>(k_stylus_fresh | k_pedal_fresh |
+                                                            k_button_1 | k_button_2 | k_hold);
     input = make_tick_input(r.pose, r.pedal, r.flags & k_of_device, r.bur, input);
     silent_s = 0.0;
     TickOutput output;
@@ -76,8 +85,9 @@ struct RealTimeServo::Loop {
   }
 
   void run_periods() {
-    // Steps may become slower than the period. Then making up only adds to the delay: half of the watchdog's time goes to it
-    // at most, so that the device is read, and its force renewed, before the watchdog fades it.
+    // Steps may become slower than the period. Then making up only adds to the delay: half of the
+    // watchdog's time goes to it at most, so that the device is read, and its force renewed, before
+    // the watchdog fades it.
     const auto budget_ns = static_cast<std::int64_t>(0.5e9 * model.config.limits.watchdog_s);
     std::int64_t due = monotonic_ns() + period_ns;
     std::int64_t unread = 0;  // periods since the last reading
@@ -115,7 +125,9 @@ struct RealTimeServo::Loop {
     }
     report.ended.why = enough() ? ServoEnd::ticks : ServoEnd::asked;
   }
-  [[nodiscard]] bool enough() const noexcept { return options.max_ticks > 0 && report.ticks >= options.max_ticks; }
+  [[nodiscard]] bool enough() const noexcept {
+    return options.max_ticks > 0 && report.ticks >= options.max_ticks;
+  }
 
   void run() noexcept {
     ask_for_sharp_timers();
@@ -125,7 +137,7 @@ struct RealTimeServo::Loop {
     try {
       run_periods();
     } catch (const std::exception& e) {
-      fail(doing, said_by(e));
+      fail(doing, message_from(e));
     } catch (...) {
       fail(doing, msg("something that is no std::exception"));
     }
@@ -133,7 +145,8 @@ struct RealTimeServo::Loop {
     try {
       device.send_force({});
     } catch (...) {  // it was cut already
-      if (report.ended.why != ServoEnd::device_failed) fail(ServoFault::zero_force, msg("zero force could not be sent"));
+      if (report.ended.why != ServoEnd::device_failed)
+        fail(ServoFault::zero_force, msg("zero force could not be sent"));
     }
     stream.close(report.ended);
     finished.store(true, std::memory_order_release);
@@ -151,7 +164,8 @@ struct RealTimeServo::Loop {
     const auto watchdog_ns = static_cast<std::int64_t>(model.config.limits.watchdog_s * 1e9);
     const std::int64_t look_ns = watchdog_ns / 4, hung_ns = 2 * watchdog_ns - 2 * look_ns;
     bool hung = false;
-    for (std::int64_t next = monotonic_ns(); !finished.load(std::memory_order_acquire); sleep_until(next)) {
+    for (std::int64_t next = monotonic_ns(); !finished.load(std::memory_order_acquire);
+         sleep_until(next)) {
       const std::int64_t now = monotonic_ns(), last = alive_ns.load(std::memory_order_acquire);
       const bool silent = last != 0 && now - last > hung_ns;
       if (silent && !hung) {
@@ -177,10 +191,12 @@ Message in_words(const ServoStop& stop) {
     case ServoFault::threads:
       return msg("the system gave no threads ({})", system_words(stop.error));
   }
-  return stop.why == ServoEnd::ticks ? msg("all ticks that were wanted were taken") : msg("it was asked to stop");
+  return stop.why == ServoEnd::ticks ? msg("all ticks that were wanted were taken")
+                                     : msg("it was asked to stop");
 }
 
-RealTimeServo::RealTimeServo(const ServoModel& model, ServoState& state, ServoDevice& device, TickStream& stream, const TickInput& before_first,
+RealTimeServo::RealTimeServo(const ServoModel& model, ServoState& state, ServoDevice& device,
+                             TickStream& stream, const TickInput& before_first,
                              const RealTimeOptions& options)
     : loop_(std::make_unique<Loop>(model, state, device, stream, before_first, options)) {}
 
@@ -190,7 +206,8 @@ RealTimeServo::~RealTimeServo() {
 }
 
 void RealTimeServo::start() {
-  if (loop_->thread.joinable() || loop_->finished) throw Error(msg("servo"), msg("was started already"), msg("make a new one"));
+  if (loop_->thread.joinable() || loop_->finished)
+    throw Error(msg("servo"), msg("was started already"), msg("make a new one"));
   Loop* loop = loop_.get();
   try {
     loop->guard = std::thread([loop] { loop->watch(); });
@@ -199,7 +216,8 @@ void RealTimeServo::start() {
     loop->finished.store(true, std::memory_order_release);
     if (loop->guard.joinable()) loop->guard.join();
     loop->device.cut_force();
-    loop->stream.close({ServoEnd::device_failed, ServoFault::threads, e.code().value()});  // who empties it must not wait
+    loop->stream.close({ServoEnd::device_failed, ServoFault::threads,
+                        e.code().value()});  // who empties it must not wait
     throw Error(msg("servo"), msg("cannot have its two threads ({})", e.what()),
                 msg("close other programs, or raise the limits of memory and processes"));
   }
@@ -207,7 +225,9 @@ void RealTimeServo::start() {
 
 void RealTimeServo::ask_to_stop() noexcept { loop_->stop.store(true, std::memory_order_relaxed); }
 
-bool RealTimeServo::running() const noexcept { return loop_->thread.joinable() && !loop_->finished.load(std::memory_order_acquire); }
+bool RealTimeServo::running() const noexcept {
+  return loop_->thread.joinable() && !loop_->finished.load(std::memory_order_acquire);
+}
 
 const RealTimeReport& RealTimeServo::join() {
   if (loop_->thread.joinable()) {

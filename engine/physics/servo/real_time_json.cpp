@@ -7,10 +7,13 @@ nlohmann::json histogram(const Lateness& l) {
   nlohmann::json bins = nlohmann::json::array();
   for (std::size_t i = 0; i < l.counts.size(); ++i) {
     const bool last = i == Lateness::k_edges_us.size();
-    bins.push_back({{"up_to_us", last ? nlohmann::json(nullptr) : nlohmann::json(Lateness::k_edges_us[i])}, {"ticks", l.counts[i]}});
+    bins.push_back(
+        {{"up_to_us", last ? nlohmann::json(nullptr) : nlohmann::json(Lateness::k_edges_us[i])},
+         {"ticks", l.counts[i]}});
   }
-  return {{"mean_us", l.mean_us()},          {"p50_us", l.quantile_us(0.5)}, {"p99_us", l.quantile_us(0.99)},
-          {"p999_us", l.quantile_us(0.999)}, {"worst_us", l.worst_us()},     {"histogram", bins}};
+  return {{"mean_us", l.mean_us()},        {"p50_us", l.quantile_us(0.5)},
+          {"p99_us", l.quantile_us(0.99)}, {"p999_us", l.quantile_us(0.999)},
+          {"worst_us", l.worst_us()},      {"histogram", bins}};
 }
 
 }  // namespace

@@ -9,8 +9,8 @@ namespace cavum {
 CAVUM_JSON_OF(ServoStop, (error), (fault), (why))
 CAVUM_JSON_OF(SystemGrant, (asked), (error))
 
-/// ticks, overruns, made_up, skipped_late, skipped_full, guard_cuts, lateness and work (mean_us, p50_us, p99_us, p999_us, worst_us, histogram),
-/// fifo, memory, ended.
+/// ticks, overruns, made_up, skipped_late, skipped_full, guard_cuts, lateness and work (mean_us,
+/// p50_us, p99_us, p999_us, worst_us, histogram), fifo, memory, ended.
 [[nodiscard]] nlohmann::json to_json(const RealTimeReport& report);
 
 }  // namespace cavum

@@ -34,7 +34,8 @@ std::int64_t monotonic_ns() noexcept {
 }
 
 void sleep_until(std::int64_t at_ns) noexcept {
-  const timespec t{static_cast<time_t>(at_ns / k_second_ns), static_cast<long>(at_ns % k_second_ns)};
+  const timespec t{static_cast<time_t>(at_ns / k_second_ns),
+                   static_cast<long>(at_ns % k_second_ns)};
   while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
   }
 }

@@ -1,4 +1,5 @@
-// What a thread asks of Linux to be on time. Each request may be refused, and the refusal is told, never hidden.
+// What a thread asks of Linux to be on time. Each request may be refused, and the refusal is told,
+// never hidden.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,9 @@ struct SystemGrant {
 };
 /// SCHED_FIFO for the calling thread.
 [[nodiscard]] SystemGrant ask_for_fifo(int priority) noexcept;
-/// Brings all pages of the process into memory, those reserved and never touched too, and keeps them there: a page that
-/// came in during a tick would wait for whoever else is changing the process's memory.
+/// Brings all pages of the process into memory, those reserved and never touched too, and keeps
+/// them there: a page that came in during a tick would wait for whoever else is changing the
+/// process's memory.
 [[nodiscard]] SystemGrant ask_for_memory() noexcept;
 void give_memory_back() noexcept;
 /// Wake-ups of the calling thread may be off by 1 µs instead of 50, where it has no SCHED_FIFO.

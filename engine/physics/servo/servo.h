@@ -1,6 +1,6 @@
-// The servo: one `step(model, state, input) -> output` per tick. The model is constant, the state is
-// plain data; the step reads no clock, allocates nothing, takes no lock and logs nothing, so the same
-// inputs give the same bits on every machine.
+// The servo: one `step(model, state, input) -> output` per tick. The model is constant, the state
+// is plain data; the step reads no clock, allocates nothing, takes no lock and logs nothing, so the
+// same inputs give the same bits on every machine.
 #pragma once
 
 #include <array>
@@ -36,7 +36,8 @@ struct ServoModel {
   VoidMap voids;                              ///< of the intact tooth
 };
 /// Throws Error when a solid tissue has no material in the force model or the tray is empty.
-[[nodiscard]] ServoModel make_servo_model(const Tooth& tooth, const std::vector<Bur>& tray, const ForceModel& force, const ServoConfig& config);
+[[nodiscard]] ServoModel make_servo_model(const Tooth& tooth, const std::vector<Bur>& tray,
+                                          const ForceModel& force, const ServoConfig& config);
 
 /// Everything that changes, by stages. Copy it to branch a simulation.
 struct ServoState {
@@ -55,12 +56,14 @@ struct ServoState {
   ReservedVector<RemovedLeaf> removed;  ///< of the last tick; capacity is reserved once
   ContactScratch scratch;
 };
-[[nodiscard]] ServoState make_servo_state(const ServoModel& model, const Tooth& tooth, Vec3 first_tip_mm);
+[[nodiscard]] ServoState make_servo_state(const ServoModel& model, const Tooth& tooth,
+                                          Vec3 first_tip_mm);
 
 /// One tick. After it `state.removed` holds the leaves removed.
 TickOutput step(const ServoModel& model, ServoState& state, const TickInput& input) noexcept;
 
-/// Over every bit of the state but the removed leaves and what the contact may ask the tooth again: equal for equal histories.
+/// Over every bit of the state but the removed leaves and what the contact may ask the tooth again:
+/// equal for equal histories.
 [[nodiscard]] std::uint64_t state_hash(const ServoState& state) noexcept;
 
 }  // namespace cavum

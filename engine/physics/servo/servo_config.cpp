@@ -10,9 +10,12 @@ std::string to_toml(const ServoConfig& c) {
   std::ostringstream out;
   out.precision(17);
   out << "tick_s = " << c.tick_s << "\nmax_rpm = " << c.max_rpm << "\nspin_up_s = " << c.spin_up_s
-      << "\nposition_quantum_mm = " << c.position_quantum_mm << "\n\n[limits]\npeak_n = " << c.limits.peak_n
-      << "\ncontinuous_n = " << c.limits.continuous_n << "\nslew_n_per_s = " << c.limits.slew_n_per_s
-      << "\nsustained_budget_n_s = " << c.limits.sustained_budget_n_s << "\nwatchdog_s = " << c.limits.watchdog_s << "\n";
+      << "\nposition_quantum_mm = " << c.position_quantum_mm
+      << "\n\n[limits]\npeak_n = " << c.limits.peak_n
+      << "\ncontinuous_n = " << c.limits.continuous_n
+      << "\nslew_n_per_s = " << c.limits.slew_n_per_s
+      << "\nsustained_budget_n_s = " << c.limits.sustained_budget_n_s
+      << "\nwatchdog_s = " << c.limits.watchdog_s << "\n";
   return out.str();
 }
 
@@ -33,7 +36,8 @@ ServoConfig parse_servo_config(const std::string& text, const std::string& where
   c.limits.sustained_budget_n_s = l.number("sustained_budget_n_s", 0.1, 1e6);
   c.limits.watchdog_s = l.number("watchdog_s", 0.001, 1);
   if (c.limits.slew_n_per_s * c.limits.watchdog_s < c.limits.peak_n)
-    l.fail("slew_n_per_s", msg("is too slow for the force to fade within watchdog_s"), msg("raise it to at least peak_n / watchdog_s"));
+    l.fail("slew_n_per_s", msg("is too slow for the force to fade within watchdog_s"),
+           msg("raise it to at least peak_n / watchdog_s"));
   l.finish();
   in.finish();
   return c;

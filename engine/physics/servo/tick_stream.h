@@ -1,5 +1,6 @@
-// From the servo thread to the thread that writes: every tick with the leaves it removed, in order, none
-// lost. The servo asks for room before it takes a step, so a step that was taken can always be handed over.
+// From the servo thread to the thread that writes: every tick with the leaves it removed, in order,
+// none lost. The servo asks for room before it takes a step, so a step that was taken can always be
+// handed over.
 #pragma once
 
 #include <array>
@@ -27,10 +28,11 @@ struct ServoTick {
 enum class ServoEnd : std::uint8_t { asked, ticks, device_failed };
 inline constexpr std::array k_servo_end_names{"asked", "ticks", "device_failed"};
 [[nodiscard]] constexpr auto names_of(ServoEnd) { return k_servo_end_names; }
-/// What of the device failed: it threw when it was read, or when a force was sent to it; it did not take the last, zero force; or the system gave the
-/// servo no threads.
+/// What of the device failed: it threw when it was read, or when a force was sent to it; it did not
+/// take the last, zero force; or the system gave the servo no threads.
 enum class ServoFault : std::uint8_t { none, reading, sending, zero_force, threads };
-inline constexpr std::array k_servo_fault_names{"none", "reading", "sending", "zero_force", "threads"};
+inline constexpr std::array k_servo_fault_names{"none", "reading", "sending", "zero_force",
+                                                "threads"};
 static_assert(k_servo_fault_names.size() == static_cast<std::size_t>(ServoFault::threads) + 1);
 [[nodiscard]] constexpr auto names_of(ServoFault) { return k_servo_fault_names; }
 struct ServoStop {
@@ -43,14 +45,18 @@ struct ServoStop {
 class TickStream {
  public:
   /// Defaults: half a minute at 1 kHz, 11 MB.
-  explicit TickStream(std::size_t ticks = 1u << 15, std::size_t leaves = 1u << 18) : ticks_(ticks), leaves_(leaves) {}
+  explicit TickStream(std::size_t ticks = 1u << 15, std::size_t leaves = 1u << 18)
+      : ticks_(ticks), leaves_(leaves) {}
 
   // ---- servo thread ----
   /// Is there room for one more tick that removes up to `leaves`?
-  [[nodiscard]] bool has_room(std::size_t leaves) const noexcept { return ticks_.room() > 0 && leaves_.room() >= leaves; }
+  [[nodiscard]] bool has_room(std::size_t leaves) const noexcept {
+    return ticks_.room() > 0 && leaves_.room() >= leaves;
+  }
   /// `tick.output.removed_count` leaves. Returns false without room: then nothing was taken.
   bool push(const ServoTick& tick, std::span<const RemovedLeaf> removed) noexcept {
-    return ticks_.room() > 0 && leaves_.push(removed) && ticks_.push(tick);  // leaves first: whoever sees the tick finds them
+    return ticks_.room() > 0 && leaves_.push(removed) &&
+           ticks_.push(tick);  // leaves first: whoever sees the tick finds them
   }
   /// Nothing follows.
   void close(const ServoStop& stop) noexcept {

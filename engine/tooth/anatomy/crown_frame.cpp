@@ -19,7 +19,8 @@ struct Moment {
   }
   [[nodiscard]] Vec3 centre_mm(const Octree& tree) const {
     const double per = 0.5 * tree.leaf_mm() / static_cast<double>(std::max<std::int64_t>(n, 1));
-    return tree.origin_mm() + Vec3{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)} * per;
+    return tree.origin_mm() +
+           Vec3{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)} * per;
   }
 };
 
@@ -49,7 +50,8 @@ CrownFrame crown_frame(const Tooth& tooth, const TissueIds& ids) {
   frame.origin_mm = enamel.centre_mm(tree);
   const Vec3 along = frame.origin_mm - dentin.centre_mm(tree);
   // centroids that nearly coincide (enamel all round) point nowhere
-  frame.own_axis = dentin.n > 0 && length(along) > 1.0 && along.z > k_min_axis_cosine * length(along);
+  frame.own_axis =
+      dentin.n > 0 && length(along) > 1.0 && along.z > k_min_axis_cosine * length(along);
   const Vec3 z = frame.own_axis ? normalized(along) : Vec3{0, 0, 1};
   const Vec3 x = normalized(Vec3{1, 0, 0} - z * z.x);
   frame.axes = {x, cross(z, x), z};
@@ -57,7 +59,8 @@ CrownFrame crown_frame(const Tooth& tooth, const TissueIds& ids) {
   tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
     if (!tree.is_solid(t)) return;
     for (int i = 0; i < 8; ++i) {
-      const Vec3 corner{at.x + (i & 1 ? edge : 0.0), at.y + (i & 2 ? edge : 0.0), at.z + (i & 4 ? edge : 0.0)};
+      const Vec3 corner{at.x + (i & 1 ? edge : 0.0), at.y + (i & 2 ? edge : 0.0),
+                        at.z + (i & 4 ? edge : 0.0)};
       const Vec3 p = frame.from_tooth(tree.origin_mm() + corner * tree.leaf_mm());
       solid.add(p);
       if (t == ids.enamel) cap.add(p);

@@ -11,9 +11,11 @@
 namespace cavum {
 namespace {
 
-constexpr double k_sides_apart_mm = 1.5;  // without a table: the least gap between buccal and lingual cusps
-constexpr double k_on_edge_mm = 0.8;      // how far a worn cusp may lie from the table's edge
-constexpr double k_ends = 0.36;           // of the table's length to each side of its middle: beyond are the marginal ridges
+constexpr double k_sides_apart_mm =
+    1.5;  // without a table: the least gap between buccal and lingual cusps
+constexpr double k_on_edge_mm = 0.8;  // how far a worn cusp may lie from the table's edge
+constexpr double k_ends =
+    0.36;  // of the table's length to each side of its middle: beyond are the marginal ridges
 
 struct Extent {
   double low = 1e9, high = -1e9;
@@ -24,7 +26,8 @@ struct Extent {
 };
 
 /// The line between buccal and lingual cusps, as y; none where it cannot be told.
-std::optional<double> middle_of(const std::vector<Vec3>& tips, const HeightMap& map, const std::optional<OcclusalTable>& table) {
+std::optional<double> middle_of(const std::vector<Vec3>& tips, const HeightMap& map,
+                                const std::optional<OcclusalTable>& table) {
   if (table) {
     double sum = 0;
     int n = 0;
@@ -49,21 +52,28 @@ std::optional<double> middle_of(const std::vector<Vec3>& tips, const HeightMap& 
 }
 
 void name_side(std::vector<CuspTip>& side, bool buccal, std::size_t before) {
-  std::sort(side.begin(), side.end(), [](const CuspTip& a, const CuspTip& b) { return a.tip_mm.x > b.tip_mm.x; });
+  std::sort(side.begin(), side.end(),
+            [](const CuspTip& a, const CuspTip& b) { return a.tip_mm.x > b.tip_mm.x; });
   static constexpr std::array<std::array<const char*, 3>, 3> k_buccal{
-      {{said("buccal"), "", ""}, {said("mesiobuccal"), said("distobuccal"), ""}, {said("mesiobuccal"), said("distobuccal"), said("distal")}}};
-  static constexpr std::array<std::array<const char*, 2>, 2> k_lingual{{{said("lingual"), ""}, {said("mesiolingual"), said("distolingual")}}};
+      {{noop("buccal"), "", ""},
+       {noop("mesiobuccal"), noop("distobuccal"), ""},
+       {noop("mesiobuccal"), noop("distobuccal"), noop("distal")}}};
+  static constexpr std::array<std::array<const char*, 2>, 2> k_lingual{
+      {{noop("lingual"), ""}, {noop("mesiolingual"), noop("distolingual")}}};
   const std::size_t n = side.size();
   const bool named = n <= (buccal ? 3 : 2);
   for (std::size_t i = 0; i < n; ++i) {
-    side[i].name = !named ? fmt::format("cusp {}", before + i + 1) : buccal ? k_buccal[n - 1][i] : k_lingual[n - 1][i];
+    side[i].name = !named   ? fmt::format("cusp {}", before + i + 1)
+                   : buccal ? k_buccal[n - 1][i]
+                            : k_lingual[n - 1][i];
     if (named) side[i].side = buccal ? CuspSide::buccal : CuspSide::lingual;
   }
 }
 
 }  // namespace
 
-std::vector<CuspTip> find_cusps(const CrownMaps& maps, const std::optional<OcclusalTable>& table, double least_z, std::vector<Message>& notes) {
+std::vector<CuspTip> find_cusps(const CrownMaps& maps, const std::optional<OcclusalTable>& table,
+                                double least_z, std::vector<Message>& notes) {
   auto peaks = find_peaks(maps.cusps, k_worn_cusp_mm);
   std::erase_if(peaks, [&](const Peak& p) { return maps.cusps.at(p.cell) < least_z; });
   std::vector<Vec3> clear;
@@ -76,7 +86,9 @@ std::vector<CuspTip> find_cusps(const CrownMaps& maps, const std::optional<Occlu
     tip.z = maps.raw.height(tip.x, tip.y);
     side.push_back({"", tip, p.prominence_mm});
   };
-  const auto side_of = [&](const Peak& p) -> std::size_t { return !middle || maps.cusps.place(p.cell).y > *middle ? 0 : 1; };
+  const auto side_of = [&](const Peak& p) -> std::size_t {
+    return !middle || maps.cusps.place(p.cell).y > *middle ? 0 : 1;
+  };
   for (const auto& p : peaks)
     if (p.prominence_mm >= k_cusp_mm) take(p, sides[side_of(p)]);
   if (table && middle) {
@@ -88,15 +100,19 @@ std::vector<CuspTip> find_cusps(const CrownMaps& maps, const std::optional<Occlu
       for (const auto& p : peaks) {
         const Vec3 at = maps.cusps.place(p.cell);
         if (side_of(p) != s || std::fabs(at.x - centre) > reach) continue;
-        if (std::any_of(table->edge.begin(), table->edge.end(), [&](int c) { return flat_distance(maps.cusps.place(c), at) < k_on_edge_mm; }))
+        if (std::any_of(table->edge.begin(), table->edge.end(), [&](int c) {
+              return flat_distance(maps.cusps.place(c), at) < k_on_edge_mm;
+            }))
           take(p, sides[s]);
       }
       const Number out = as_mm(k_worn_cusp_mm, 2);
       const bool none = sides[s].empty();
-      notes.push_back(s == 0 ? none ? msg("no buccal cusp stands out by {}", out)
-                                    : msg("the buccal cusps are worn or small: they stand out by less than {}", out)
-                      : none ? msg("no lingual cusp stands out by {}", out)
-                             : msg("the lingual cusps are worn or small: they stand out by less than {}", out));
+      notes.push_back(
+          s == 0 ? none ? msg("no buccal cusp stands out by {}", out)
+                        : msg("the buccal cusps are worn or small: they stand out by less than {}",
+                              out)
+          : none ? msg("no lingual cusp stands out by {}", out)
+                 : msg("the lingual cusps are worn or small: they stand out by less than {}", out));
     }
   }
   const std::size_t buccal = sides[0].size();

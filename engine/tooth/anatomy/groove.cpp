@@ -8,15 +8,17 @@
 namespace cavum {
 namespace {
 
-constexpr double k_end_mm = 0.3;                         // of the crown's length at each end: there a way begins
-constexpr double k_side_slope = 0.15;                    // a steeper climb is the side, not the crest
-constexpr double k_rounded_mm = 0.8;                     // the highest place of a ridge lies at most so far inside of that
-constexpr double k_slope_over_mm = 0.4;                  // slopes are measured over this
-constexpr double k_min_share = 0.4;                      // of half the crown's length: a ridge lies beyond
-constexpr double k_between_share = 0.25;                 // nearer to the middle the groove has both sides above it
-constexpr double k_side_reach_mm = 3.5;                  // how far across the groove its sides are looked at
-constexpr double k_side_mm = 0.1, k_min_side_mm = 0.03;  // so much both sides stand above it, mostly and at least
-constexpr std::size_t k_smooth_cells = 2;                // to both sides, along the way
+constexpr double k_end_mm = 0.3;       // of the crown's length at each end: there a way begins
+constexpr double k_side_slope = 0.15;  // a steeper climb is the side, not the crest
+constexpr double k_rounded_mm =
+    0.8;  // the highest place of a ridge lies at most so far inside of that
+constexpr double k_slope_over_mm = 0.4;   // slopes are measured over this
+constexpr double k_min_share = 0.4;       // of half the crown's length: a ridge lies beyond
+constexpr double k_between_share = 0.25;  // nearer to the middle the groove has both sides above it
+constexpr double k_side_reach_mm = 3.5;   // how far across the groove its sides are looked at
+constexpr double k_side_mm = 0.1,
+                 k_min_side_mm = 0.03;     // so much both sides stand above it, mostly and at least
+constexpr std::size_t k_smooth_cells = 2;  // to both sides, along the way
 
 struct Reach {
   double low = 1e9, high = -1e9;
@@ -36,7 +38,8 @@ GrooveProfile profile_of(const HeightMap& map, const std::vector<int>& way) {
   GrooveProfile p;
   for (std::size_t i = 0; i < way.size(); ++i) {
     double sum = 0;
-    const std::size_t from = i >= k_smooth_cells ? i - k_smooth_cells : 0, to = std::min(i + k_smooth_cells, way.size() - 1);
+    const std::size_t from = i >= k_smooth_cells ? i - k_smooth_cells : 0,
+                      to = std::min(i + k_smooth_cells, way.size() - 1);
     for (std::size_t k = from; k <= to; ++k) sum += map.at(way[k]);
     p.z.push_back(sum / static_cast<double>(to - from + 1));
     const Vec3 step = i == 0 ? Vec3{} : map.place(way[i]) - map.place(way[i - 1]);
@@ -45,13 +48,16 @@ GrooveProfile profile_of(const HeightMap& map, const std::vector<int>& way) {
   return p;
 }
 
-/// From the way's first place inwards: where it no longer climbs the side, and from there the highest place of a ridge.
+/// From the way's first place inwards: where it no longer climbs the side, and from there the
+/// highest place of a ridge.
 std::optional<GrooveEnd> end_of(const GrooveProfile& p) {
   std::size_t behind = 0, ahead = 0;
   for (std::size_t i = 0; i < p.z.size(); ++i) {
     while (p.s[i] - p.s[behind] > 0.5 * k_slope_over_mm) ++behind;
     while (ahead + 1 < p.s.size() && p.s[ahead] - p.s[i] < 0.5 * k_slope_over_mm) ++ahead;
-    if (p.s[i] < 0.5 * k_slope_over_mm || p.z[ahead] - p.z[behind] > k_side_slope * (p.s[ahead] - p.s[behind])) continue;
+    if (p.s[i] < 0.5 * k_slope_over_mm ||
+        p.z[ahead] - p.z[behind] > k_side_slope * (p.s[ahead] - p.s[behind]))
+      continue;
     std::size_t top = i, last = i;
     for (std::size_t m = i; m < p.s.size() && p.s[m] - p.s[i] <= k_rounded_mm; ++m) {
       last = m;
@@ -62,9 +68,11 @@ std::optional<GrooveEnd> end_of(const GrooveProfile& p) {
   return std::nullopt;
 }
 
-/// How much the lower of a place's two sides stands above it, mm: the highest within reach towards +y and -y.
+/// How much the lower of a place's two sides stands above it, mm: the highest within reach towards
+/// +y and -y.
 double side_height(const HeightMap& map, int cell) {
-  const int x = cell % map.nx, y = cell / map.nx, reach = static_cast<int>(k_side_reach_mm / HeightMap::k_cell_mm);
+  const int x = cell % map.nx, y = cell / map.nx,
+            reach = static_cast<int>(k_side_reach_mm / HeightMap::k_cell_mm);
   double up = map.at(cell), down = up;
   for (int k = 1; k <= reach; ++k) {
     if (map.is_on(x, y + k)) up = std::max(up, map.at(map.index(x, y + k)));
@@ -108,17 +116,20 @@ std::optional<Groove> find_groove(const HeightMap& map, double least_z, double l
     const double at = map.place(c).x;
     if (at > x.high - k_end_mm) mesial.push_back(c);
     if (at < x.low + k_end_mm) distal.push_back(c);
-    if (std::fabs(at - x.middle()) < k_between_share * x.half()) allowed[i] = side_height(map, c) >= k_min_side_mm;
+    if (std::fabs(at - x.middle()) < k_between_share * x.half())
+      allowed[i] = side_height(map, c) >= k_min_side_mm;
   }
   const auto bend = surface_curvature(map);
   Groove groove;
-  groove.way = valley_way(map, allowed, bend, mesial, distal);
+  groove.way = valley_path(map, allowed, bend, mesial, distal);
   const GrooveProfile there = profile_of(map, groove.way);
   GrooveProfile back = there;
   std::reverse(back.z.begin(), back.z.end());
-  for (std::size_t i = 0; i < back.s.size(); ++i) back.s[i] = there.s.back() - there.s[there.s.size() - 1 - i];
+  for (std::size_t i = 0; i < back.s.size(); ++i)
+    back.s[i] = there.s.back() - there.s[there.s.size() - 1 - i];
   const auto mesial_end = end_of(there), distal_end = end_of(back);
-  if (!mesial_end || !distal_end || mesial_end->place + distal_end->place + 8 > groove.way.size()) return std::nullopt;
+  if (!mesial_end || !distal_end || mesial_end->place + distal_end->place + 8 > groove.way.size())
+    return std::nullopt;
   groove.mesial = *mesial_end;
   groove.distal = {groove.way.size() - 1 - distal_end->place, distal_end->ridge};
   const double out_mesial = map.place(groove.way[groove.mesial.place]).x - x.middle(),

@@ -8,7 +8,8 @@
 namespace cavum {
 namespace {
 
-constexpr std::array<std::array<int, 2>, 8> k_around{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
+constexpr std::array<std::array<int, 2>, 8> k_around{
+    {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
 
 /// Prominences by joining cells from the highest down: where two hills meet, the lower one ends.
 class Hills {
@@ -34,13 +35,15 @@ class Hills {
   std::vector<int> parent_, saddle_;
 };
 
-std::vector<Peak> peaks_of(const HeightMap& map, const std::vector<double>& z, const std::vector<std::uint8_t>& on, double least) {
+std::vector<Peak> peaks_of(const HeightMap& map, const std::vector<double>& z,
+                           const std::vector<std::uint8_t>& on, double least) {
   std::vector<int> order;
   for (int c = 0; c < map.count(); ++c)
     if (on[static_cast<std::size_t>(c)] != 0) order.push_back(c);
   if (order.empty()) return {};
   const auto height = [&](int c) { return z[static_cast<std::size_t>(c)]; };
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return height(a) != height(b) ? height(a) > height(b) : a < b; });
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return height(a) != height(b) ? height(a) > height(b) : a < b; });
   Hills hills(z.size());
   std::vector<int> tops;
   for (const int c : order) {
@@ -80,17 +83,21 @@ std::vector<Peak> peaks_of(const HeightMap& map, const std::vector<double>& z, c
 }  // namespace
 
 double HeightMap::height(double x_mm, double y_mm) const noexcept {
-  const double px = std::clamp((x_mm - low_x) / k_cell_mm, 0.0, nx - 1.0), py = std::clamp((y_mm - low_y) / k_cell_mm, 0.0, ny - 1.0);
-  const int x = std::min(static_cast<int>(px), std::max(0, nx - 2)), y = std::min(static_cast<int>(py), std::max(0, ny - 2));
+  const double px = std::clamp((x_mm - low_x) / k_cell_mm, 0.0, nx - 1.0),
+               py = std::clamp((y_mm - low_y) / k_cell_mm, 0.0, ny - 1.0);
+  const int x = std::min(static_cast<int>(px), std::max(0, nx - 2)),
+            y = std::min(static_cast<int>(py), std::max(0, ny - 2));
   const int x1 = std::min(x + 1, nx - 1), y1 = std::min(y + 1, ny - 1);
   const double fx = px - x, fy = py - y;
-  const double low = at(index(x, y)) * (1 - fx) + at(index(x1, y)) * fx, high = at(index(x, y1)) * (1 - fx) + at(index(x1, y1)) * fx;
+  const double low = at(index(x, y)) * (1 - fx) + at(index(x1, y)) * fx,
+               high = at(index(x, y1)) * (1 - fx) + at(index(x1, y1)) * fx;
   return low * (1 - fy) + high * fy;
 }
 
 int HeightMap::cell_at(double x_mm, double y_mm) const noexcept {
   const auto near = [](double v, int n) { return std::clamp(static_cast<int>(v + 0.5), 0, n - 1); };
-  return index(near(std::max(0.0, (x_mm - low_x) / k_cell_mm), nx), near(std::max(0.0, (y_mm - low_y) / k_cell_mm), ny));
+  return index(near(std::max(0.0, (x_mm - low_x) / k_cell_mm), nx),
+               near(std::max(0.0, (y_mm - low_y) / k_cell_mm), ny));
 }
 
 HeightMap HeightMap::smoothed(double sigma_mm) const {
@@ -102,12 +109,14 @@ HeightMap HeightMap::smoothed(double sigma_mm) const {
     weight[i] = on[i];
     value[i] = on[i] != 0 ? z[i] : 0.0;
   }
-  const auto pass = [&](const std::vector<double>& from, std::vector<double>& to, int step, int along, int length) {
+  const auto pass = [&](const std::vector<double>& from, std::vector<double>& to, int step,
+                        int along, int length) {
     for (int i = 0; i < count(); ++i) {
       const int p = i / along % length;
       const double before = p > 0 ? from[static_cast<std::size_t>(i - step)] : 0.0,
                    after = p + 1 < length ? from[static_cast<std::size_t>(i + step)] : 0.0;
-      to[static_cast<std::size_t>(i)] = 0.25 * before + 0.5 * from[static_cast<std::size_t>(i)] + 0.25 * after;
+      to[static_cast<std::size_t>(i)] =
+          0.25 * before + 0.5 * from[static_cast<std::size_t>(i)] + 0.25 * after;
     }
   };
   for (int p = 0; p < passes; ++p) {
@@ -125,7 +134,9 @@ HeightMap crown_heights(const Tooth& tooth, const CrownFrame& frame) {
   constexpr double k_cell = HeightMap::k_cell_mm;
   const Octree& tree = tooth.octree;
   HeightMap map;
-  const auto cells = [](double low, double high) { return std::clamp(static_cast<int>((high - low) / k_cell) + 3, 1, 400); };
+  const auto cells = [](double low, double high) {
+    return std::clamp(static_cast<int>((high - low) / k_cell) + 3, 1, 400);
+  };
   map.nx = cells(frame.enamel_low.x, frame.enamel_high.x);
   map.ny = cells(frame.enamel_low.y, frame.enamel_high.y);
   map.low_x = 0.5 * (frame.enamel_low.x + frame.enamel_high.x) - 0.5 * k_cell * (map.nx - 1);
@@ -152,7 +163,9 @@ HeightMap crown_heights(const Tooth& tooth, const CrownFrame& frame) {
   return map;
 }
 
-std::vector<Peak> find_peaks(const HeightMap& map, double least_prominence_mm) { return peaks_of(map, map.z, map.on, least_prominence_mm); }
+std::vector<Peak> find_peaks(const HeightMap& map, double least_prominence_mm) {
+  return peaks_of(map, map.z, map.on, least_prominence_mm);
+}
 
 std::vector<Peak> find_hollows(const HeightMap& map, double least_depth_mm) {
   // off the crown is the deepest hollow of all: what drains there is none
@@ -160,7 +173,8 @@ std::vector<Peak> find_hollows(const HeightMap& map, double least_depth_mm) {
   const std::vector<std::uint8_t> all(z.size(), 1);
   for (std::size_t i = 0; i < z.size(); ++i) z[i] = map.on[i] != 0 ? -map.z[i] : 1e3;
   auto hollows = peaks_of(map, z, all, least_depth_mm);
-  std::erase_if(hollows, [&](const Peak& p) { return map.on[static_cast<std::size_t>(p.cell)] == 0; });
+  std::erase_if(hollows,
+                [&](const Peak& p) { return map.on[static_cast<std::size_t>(p.cell)] == 0; });
   return hollows;
 }
 
@@ -171,8 +185,10 @@ Vec3 refined_peak(const HeightMap& map, int cell) {
     const double bend = before - 2 * here + after;
     return bend != 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
   };
-  if (map.is_on(x - 1, y) && map.is_on(x + 1, y)) p.x += HeightMap::k_cell_mm * shift(map.at(cell - 1), map.at(cell), map.at(cell + 1));
-  if (map.is_on(x, y - 1) && map.is_on(x, y + 1)) p.y += HeightMap::k_cell_mm * shift(map.at(cell - map.nx), map.at(cell), map.at(cell + map.nx));
+  if (map.is_on(x - 1, y) && map.is_on(x + 1, y))
+    p.x += HeightMap::k_cell_mm * shift(map.at(cell - 1), map.at(cell), map.at(cell + 1));
+  if (map.is_on(x, y - 1) && map.is_on(x, y + 1))
+    p.y += HeightMap::k_cell_mm * shift(map.at(cell - map.nx), map.at(cell), map.at(cell + map.nx));
   return p;
 }
 
@@ -186,8 +202,11 @@ Curvatures curvatures(const HeightMap& map) {
         for (int dx = -1; dx <= 1; ++dx) inside = inside && map.is_on(x + dx, y + dy);
       if (!inside) continue;
       const int c = map.index(x, y), n = map.nx;
-      const double xx = (map.at(c + 1) - 2 * map.at(c) + map.at(c - 1)) * k_per, yy = (map.at(c + n) - 2 * map.at(c) + map.at(c - n)) * k_per;
-      const double xy = 0.25 * (map.at(c + n + 1) - map.at(c + n - 1) - map.at(c - n + 1) + map.at(c - n - 1)) * k_per;
+      const double xx = (map.at(c + 1) - 2 * map.at(c) + map.at(c - 1)) * k_per,
+                   yy = (map.at(c + n) - 2 * map.at(c) + map.at(c - n)) * k_per;
+      const double xy =
+          0.25 * (map.at(c + n + 1) - map.at(c + n - 1) - map.at(c - n + 1) + map.at(c - n - 1)) *
+          k_per;
       const double half = 0.5 * (xx - yy), apart = std::sqrt(half * half + xy * xy);
       out.larger[static_cast<std::size_t>(c)] = 0.5 * (xx + yy) + apart;
       out.smaller[static_cast<std::size_t>(c)] = 0.5 * (xx + yy) - apart;

@@ -31,7 +31,8 @@ Polyline find_incisal_edge(const CrownMaps& maps) {
   }
   if (n < 10) return {};
   const Vec3 middle{sx / n, sy / n, 0};
-  const double a = xx / n - middle.x * middle.x, b = xy / n - middle.x * middle.y, c = yy / n - middle.y * middle.y;
+  const double a = xx / n - middle.x * middle.x, b = xy / n - middle.x * middle.y,
+               c = yy / n - middle.y * middle.y;
   const double root = std::sqrt(0.25 * (a - c) * (a - c) + b * b), large = 0.5 * (a + c) + root;
   Vec3 along = normalized({b, large - a, 0}, {1, 0, 0});
   if (std::fabs(b) < 1e-12) along = a >= c ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
@@ -54,7 +55,8 @@ Polyline find_incisal_edge(const CrownMaps& maps) {
   }
   for (int pass = 0; pass < 2 && edge.size() > 2; ++pass) {
     const Polyline old = edge;
-    for (std::size_t i = 1; i + 1 < edge.size(); ++i) edge[i] = old[i - 1] * 0.25 + old[i] * 0.5 + old[i + 1] * 0.25;
+    for (std::size_t i = 1; i + 1 < edge.size(); ++i)
+      edge[i] = old[i - 1] * 0.25 + old[i] * 0.5 + old[i + 1] * 0.25;
   }
   for (auto& p : edge) p.z = map.height(p.x, p.y);
   return edge;

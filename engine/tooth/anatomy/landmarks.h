@@ -1,6 +1,7 @@
-// What a dentist would point at on a tooth: cusp tips, fissures, pits, marginal ridges, the neck, the pulp's horns and canals.
-// Found in the leaves of any crown that stands in the tooth frame (a maker's, or a scan's), so that zones can be laid from them.
-// What a tooth lacks, and what cannot be told, is absent. Definitions, sources and figures: docs/anatomy.md.
+// What a dentist would point at on a tooth: cusp tips, fissures, pits, marginal ridges, the neck,
+// the pulp's horns and canals. Found in the leaves of any crown that stands in the tooth frame (a
+// maker's, or a scan's), so that zones can be laid from them. What a tooth lacks, and what cannot
+// be told, is absent. Definitions, sources and figures: docs/anatomy.md.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +31,8 @@ struct ClassGuess {
 enum class CuspSide : std::uint8_t { untold, buccal, lingual };
 
 struct CuspTip {
-  std::string name;  ///< "mesiobuccal", "buccal", ...; "cusp 3" where the place has no name of its own
+  std::string
+      name;  ///< "mesiobuccal", "buccal", ...; "cusp 3" where the place has no name of its own
   Vec3 tip_mm;
   double prominence_mm = 0.0;        ///< above the highest way to a higher cusp
   CuspSide side = CuspSide::untold;  ///< of one whose place has a name of its own, as it was found
@@ -53,7 +55,8 @@ struct LongAxis {
   double tilt_deg = 0.0;   ///< against the tooth frame's +z
 };
 
-/// All points mm of the tooth frame. Empty, or no value: the tooth has none, or it could not be told.
+/// All points mm of the tooth frame. Empty, or no value: the tooth has none, or it could not be
+/// told.
 struct Landmarks {
   ClassGuess tooth_class;
   LongAxis long_axis;
@@ -66,24 +69,29 @@ struct Landmarks {
   Polyline incisal_edge_mm;       ///< of a front tooth, from mesial to distal
   Polyline occlusal_table_mm;     ///< closed: along cusp ridges and marginal ridges
   Polyline height_of_contour_mm;  ///< closed: the widest place of the crown in every direction
-  Polyline neck_mm;               ///< closed: the cemento-enamel junction, where enamel ends on the outside
+  Polyline neck_mm;  ///< closed: the cemento-enamel junction, where enamel ends on the outside
   std::vector<Vec3> pulp_horns_mm;
   std::optional<Vec3> chamber_roof_mm,
-      chamber_floor_mm;                    ///< lowest place of the roof over the chamber's middle; middle of the floor. No floor: one canal
-  std::vector<CanalOpening> canal_mouths;  ///< where canals leave the chamber; of a single canal: at the neck
+      chamber_floor_mm;  ///< lowest place of the roof over the chamber's middle; middle of the
+                         ///< floor. No floor: one canal
+  std::vector<CanalOpening>
+      canal_mouths;  ///< where canals leave the chamber; of a single canal: at the neck
   std::vector<Vec3> apices_mm;
-  std::vector<std::string> moved;  ///< names of the points that a person put, see Tooth::placed_landmarks
-  std::vector<Message> notes;      ///< what is absent or doubtful, and why, for people
+  std::vector<std::string>
+      moved;  ///< names of the points that a person put, see Tooth::placed_landmarks
+  std::vector<Message> notes;  ///< what is absent or doubtful, and why, for people
 };
 
-/// Finds them. Uses only + - * / and sqrt in a fixed order: the same tooth gives the same bits everywhere. Below 2 s for a molar of 0.05 mm leaves.
-/// Of a tooth with neighbours or gum (beside.h) they are those of the tooth alone.
-/// Points that a person put (Tooth::placed_landmarks) stand in place of what was found. Never throws for a tooth without anatomy (a block):
-/// then nearly all is absent.
+/// Finds them. Uses only + - * / and sqrt in a fixed order: the same tooth gives the same bits
+/// everywhere. Below 2 s for a molar of 0.05 mm leaves. Of a tooth with neighbours or gum
+/// (adjacent.h) they are those of the tooth alone. Points that a person put (Tooth::placed_landmarks)
+/// stand in place of what was found. Never throws for a tooth without anatomy (a block): then
+/// nearly all is absent.
 [[nodiscard]] Landmarks find_landmarks(const Tooth& tooth);
 
-/// Every single point by its name, in a fixed order: `cusp_1`, ..., `mesial_ridge`, `distal_ridge`, `mesial_pit`, `central_pit`, `distal_pit`,
-/// `pulp_horn_1`, `chamber_roof`, `chamber_floor`, `canal_mouth_1`, `apex_1`. These are the names that a person may set.
+/// Every single point by its name, in a fixed order: `cusp_1`, ..., `mesial_ridge`, `distal_ridge`,
+/// `mesial_pit`, `central_pit`, `distal_pit`, `pulp_horn_1`, `chamber_roof`, `chamber_floor`,
+/// `canal_mouth_1`, `apex_1`. These are the names that a person may set.
 [[nodiscard]] std::vector<NamedPoint> named_points(const Landmarks& landmarks);
 /// Whether `name` is one that find_landmarks understands (numbers 1 to 16).
 [[nodiscard]] bool is_landmark_name(std::string_view name) noexcept;

@@ -8,8 +8,8 @@
 namespace cavum {
 
 std::array<std::string_view, 5> names_of(ToothClass) {
-  return {name_of(ToothClass::unknown), name_of(ToothClass::incisor), name_of(ToothClass::canine), name_of(ToothClass::premolar),
-          name_of(ToothClass::molar)};
+  return {name_of(ToothClass::unknown), name_of(ToothClass::incisor), name_of(ToothClass::canine),
+          name_of(ToothClass::premolar), name_of(ToothClass::molar)};
 }
 
 // What is kept.
@@ -35,13 +35,17 @@ constexpr JsonLimits k_landmark_json{8U << 20, 400'000, 8};
 
 }  // namespace
 
-std::string landmarks_text(const Landmarks& landmarks) { return to_json_value(landmarks).dump(); }  // the shortest digits that give each double back
+std::string landmarks_text(const Landmarks& landmarks) {
+  return to_json_value(landmarks).dump();
+}  // the shortest digits that give each double back
 
 Landmarks parse_landmarks(std::string_view text, const std::string& where) {
-  return json_value_of<Landmarks>(parse_json(text, where, k_landmark_json), {.where = where,
-                                                                             .advice = msg("the file was changed or is damaged: use the original"),
-                                                                             .most_elements = k_max_landmark_points,
-                                                                             .largest = k_furthest_landmark_mm});
+  return json_value_of<Landmarks>(
+      parse_json(text, where, k_landmark_json),
+      {.where = where,
+       .advice = msg("the file was changed or is damaged: use the original"),
+       .most_elements = k_max_landmark_points,
+       .largest = k_furthest_landmark_mm});
 }
 
 }  // namespace cavum

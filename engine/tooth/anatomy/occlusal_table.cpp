@@ -11,9 +11,10 @@ namespace {
 constexpr int k_unknown = 0, k_outside = 1, k_inside = 2;
 constexpr double k_min_table_mm2 = 2.0;
 /// Eight neighbours, counter-clockwise from +x.
-constexpr std::array<std::array<int, 2>, 8> k_ring{{{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+constexpr std::array<std::array<int, 2>, 8> k_ring{
+    {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
 
-std::size_t cell_place(int cell) { return static_cast<std::size_t>(cell); }
+std::size_t index_of_cell(int cell) { return static_cast<std::size_t>(cell); }
 
 /// Labels of all cells by flooding from the marked ones, lowest places first.
 void flood(const HeightMap& map, std::vector<int>& label) {
@@ -21,7 +22,7 @@ void flood(const HeightMap& map, std::vector<int>& label) {
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
   int turn = 0;
   for (int c = 0; c < map.count(); ++c)
-    if (label[cell_place(c)] != k_unknown) front.push({{map.at(c), turn++}, c});
+    if (label[index_of_cell(c)] != k_unknown) front.push({{map.at(c), turn++}, c});
   while (!front.empty()) {
     const auto [level, c] = front.top();
     front.pop();
@@ -30,8 +31,8 @@ void flood(const HeightMap& map, std::vector<int>& label) {
       const int nx = x + k_ring[k][0], ny = y + k_ring[k][1];
       if (!map.is_on(nx, ny)) continue;
       const int n = map.index(nx, ny);
-      if (label[cell_place(n)] != k_unknown) continue;
-      label[cell_place(n)] = label[cell_place(c)];
+      if (label[index_of_cell(n)] != k_unknown) continue;
+      label[index_of_cell(n)] = label[index_of_cell(c)];
       front.push({{std::max(level.first, map.at(n)), turn++}, n});
     }
   }
@@ -42,7 +43,7 @@ std::vector<std::uint8_t> largest_piece(const HeightMap& map, const std::vector<
   std::vector<int> piece(in.size(), -1);
   const auto spread = [&](int from, int number, std::uint8_t kind) {
     std::vector<int> stack{from};
-    piece[cell_place(from)] = number;
+    piece[index_of_cell(from)] = number;
     int size = 0;
     while (!stack.empty()) {
       const int c = stack.back();
@@ -52,8 +53,8 @@ std::vector<std::uint8_t> largest_piece(const HeightMap& map, const std::vector<
         const int nx = c % map.nx + k_ring[k][0], ny = c / map.nx + k_ring[k][1];
         if (nx < 0 || ny < 0 || nx >= map.nx || ny >= map.ny) continue;
         const int n = map.index(nx, ny);
-        if (piece[cell_place(n)] >= 0 || in[cell_place(n)] != kind) continue;
-        piece[cell_place(n)] = number;
+        if (piece[index_of_cell(n)] >= 0 || in[index_of_cell(n)] != kind) continue;
+        piece[index_of_cell(n)] = number;
         stack.push_back(n);
       }
     }
@@ -61,7 +62,7 @@ std::vector<std::uint8_t> largest_piece(const HeightMap& map, const std::vector<
   };
   int numbers = 0, best = -1, most = 0;
   for (int c = 0; c < map.count(); ++c)
-    if (in[cell_place(c)] != 0 && piece[cell_place(c)] < 0)
+    if (in[index_of_cell(c)] != 0 && piece[index_of_cell(c)] < 0)
       if (const int size = spread(c, numbers++, 1); size > most) {
         most = size;
         best = numbers - 1;
@@ -72,8 +73,10 @@ std::vector<std::uint8_t> largest_piece(const HeightMap& map, const std::vector<
   std::vector<std::uint8_t> seen(in.size(), 0);
   std::vector<int> stack;
   const auto enter = [&](int x, int y) {
-    if (x < 0 || y < 0 || x >= map.nx || y >= map.ny || seen[cell_place(map.index(x, y))] != 0 || out[cell_place(map.index(x, y))] != 0) return;
-    seen[cell_place(map.index(x, y))] = 1;
+    if (x < 0 || y < 0 || x >= map.nx || y >= map.ny || seen[index_of_cell(map.index(x, y))] != 0 ||
+        out[index_of_cell(map.index(x, y))] != 0)
+      return;
+    seen[index_of_cell(map.index(x, y))] = 1;
     stack.push_back(map.index(x, y));
   };
   for (int x = 0; x < map.nx; ++x) enter(x, 0), enter(x, map.ny - 1);
@@ -81,7 +84,8 @@ std::vector<std::uint8_t> largest_piece(const HeightMap& map, const std::vector<
   while (!stack.empty()) {
     const int c = stack.back();
     stack.pop_back();
-    for (std::size_t k = 0; k < 8; k += 2) enter(c % map.nx + k_ring[k][0], c / map.nx + k_ring[k][1]);
+    for (std::size_t k = 0; k < 8; k += 2)
+      enter(c % map.nx + k_ring[k][0], c / map.nx + k_ring[k][1]);
   }
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = seen[i] == 0;
   return out;
@@ -91,10 +95,12 @@ std::vector<std::uint8_t> largest_piece(const HeightMap& map, const std::vector<
 std::vector<int> trace(const HeightMap& map, const std::vector<std::uint8_t>& in) {
   int start = -1;
   for (int c = 0; c < map.count() && start < 0; ++c)
-    if (in[cell_place(c)] != 0) start = c;
+    if (in[index_of_cell(c)] != 0) start = c;
   std::vector<int> edge;
   if (start < 0) return edge;
-  const auto is_in = [&](int x, int y) { return x >= 0 && y >= 0 && x < map.nx && y < map.ny && in[cell_place(map.index(x, y))] != 0; };
+  const auto is_in = [&](int x, int y) {
+    return x >= 0 && y >= 0 && x < map.nx && y < map.ny && in[index_of_cell(map.index(x, y))] != 0;
+  };
   // the start is the lowest, leftmost cell: it is entered from below
   int c = start;
   std::size_t back = 6;
@@ -124,40 +130,42 @@ std::optional<OcclusalTable> occlusal_table(const HeightMap& map, const std::vec
     for (int x = 0; x < map.nx; ++x) {
       bool border = !map.is_on(x, y);
       for (const auto& [dx, dy] : k_ring) border = border || !map.is_on(x + dx, y + dy);
-      if (border) label[cell_place(map.index(x, y))] = k_outside;
+      if (border) label[index_of_cell(map.index(x, y))] = k_outside;
     }
-  for (const int c : lowest) label[cell_place(c)] = k_inside;
+  for (const int c : lowest) label[index_of_cell(c)] = k_inside;
   flood(map, label);
   std::vector<std::uint8_t> in(label.size(), 0);
   for (std::size_t i = 0; i < in.size(); ++i) in[i] = label[i] == k_inside;
   OcclusalTable table;
   table.inside = largest_piece(map, in);
   const auto cells = std::count(table.inside.begin(), table.inside.end(), std::uint8_t{1});
-  if (static_cast<double>(cells) * HeightMap::k_cell_mm * HeightMap::k_cell_mm < k_min_table_mm2) return std::nullopt;
+  if (static_cast<double>(cells) * HeightMap::k_cell_mm * HeightMap::k_cell_mm < k_min_table_mm2)
+    return std::nullopt;
   table.edge = trace(map, table.inside);
   return table;
 }
 
-std::vector<int> valley_way(const HeightMap& map, const std::vector<std::uint8_t>& allowed, const std::vector<double>& curvature,
-                            const std::vector<int>& from, const std::vector<int>& to) {
+std::vector<int> valley_path(const HeightMap& map, const std::vector<std::uint8_t>& allowed,
+                             const std::vector<double>& curvature, const std::vector<int>& from,
+                             const std::vector<int>& to) {
   constexpr double k_floor = 0.15, k_most = 3.0;  // 1/mm
   std::vector<double> cost(map.z.size(), -1.0);
   std::vector<int> before(map.z.size(), -1);
   std::vector<std::uint8_t> done(map.z.size(), 0), goal(map.z.size(), 0);
-  for (const int c : to) goal[cell_place(c)] = 1;
+  for (const int c : to) goal[index_of_cell(c)] = 1;
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
   for (const int c : from) {
-    cost[cell_place(c)] = 0.0;
+    cost[index_of_cell(c)] = 0.0;
     front.push({0.0, c});
   }
   int end = -1;
   while (!front.empty()) {
     const int c = front.top().second;
     front.pop();
-    if (done[cell_place(c)] != 0) continue;
-    done[cell_place(c)] = 1;
-    if (goal[cell_place(c)] != 0) {
+    if (done[index_of_cell(c)] != 0) continue;
+    done[index_of_cell(c)] = 1;
+    if (goal[index_of_cell(c)] != 0) {
       end = c;
       break;
     }
@@ -165,17 +173,19 @@ std::vector<int> valley_way(const HeightMap& map, const std::vector<std::uint8_t
       const int nx = c % map.nx + k_ring[k][0], ny = c / map.nx + k_ring[k][1];
       if (!map.is_on(nx, ny)) continue;
       const int n = map.index(nx, ny);
-      if (allowed[cell_place(n)] == 0 && goal[cell_place(n)] == 0) continue;
-      const double bend = std::clamp(0.5 * (curvature[cell_place(c)] + curvature[cell_place(n)]), 0.0, k_most);
-      const double sum = cost[cell_place(c)] + (k % 2 == 0 ? 1.0 : 1.4142135623730951) / (k_floor + bend);
-      if (cost[cell_place(n)] >= 0 && sum >= cost[cell_place(n)]) continue;
-      cost[cell_place(n)] = sum;
-      before[cell_place(n)] = c;
+      if (allowed[index_of_cell(n)] == 0 && goal[index_of_cell(n)] == 0) continue;
+      const double bend = std::clamp(
+          0.5 * (curvature[index_of_cell(c)] + curvature[index_of_cell(n)]), 0.0, k_most);
+      const double sum =
+          cost[index_of_cell(c)] + (k % 2 == 0 ? 1.0 : 1.4142135623730951) / (k_floor + bend);
+      if (cost[index_of_cell(n)] >= 0 && sum >= cost[index_of_cell(n)]) continue;
+      cost[index_of_cell(n)] = sum;
+      before[index_of_cell(n)] = c;
       front.push({sum, n});
     }
   }
   std::vector<int> way;
-  for (int c = end; c >= 0; c = before[cell_place(c)]) way.push_back(c);
+  for (int c = end; c >= 0; c = before[index_of_cell(c)]) way.push_back(c);
   std::reverse(way.begin(), way.end());
   return way;
 }

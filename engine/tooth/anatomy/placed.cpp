@@ -13,7 +13,19 @@ namespace {
 
 constexpr std::size_t k_max_of_a_kind = 16;
 
-enum class Kind { cusp, mesial_ridge, distal_ridge, mesial_pit, central_pit, distal_pit, pulp_horn, chamber_roof, chamber_floor, canal_mouth, apex };
+enum class Kind {
+  cusp,
+  mesial_ridge,
+  distal_ridge,
+  mesial_pit,
+  central_pit,
+  distal_pit,
+  pulp_horn,
+  chamber_roof,
+  chamber_floor,
+  canal_mouth,
+  apex
+};
 struct KindName {
   std::string_view name;
   Kind kind;
@@ -41,11 +53,13 @@ std::optional<Name> parsed(std::string_view text) {
       if (text == k.name) return Name{k.kind, 0};
       continue;
     }
-    if (text.size() < k.name.size() + 2 || !text.starts_with(k.name) || text[k.name.size()] != '_') continue;
+    if (text.size() < k.name.size() + 2 || !text.starts_with(k.name) || text[k.name.size()] != '_')
+      continue;
     const auto digits = text.substr(k.name.size() + 1);
     std::size_t number = 0;
     const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    if (read.ec == std::errc{} && read.ptr == digits.data() + digits.size() && digits[0] != '0' && number <= k_max_of_a_kind)
+    if (read.ec == std::errc{} && read.ptr == digits.data() + digits.size() && digits[0] != '0' &&
+        number <= k_max_of_a_kind)
       return Name{k.kind, number};
   }
   return std::nullopt;
@@ -76,7 +90,8 @@ bool put_point(std::vector<Vec3>& list, std::size_t number, Vec3 at) {
 void put_ridge(MarginalRidge& ridge, Vec3 at) {
   ridge.lowest_mm = at;
   if (ridge.crest_mm.empty()) return;
-  // the crest goes through its lowest place: the nearest of its points moves there, the others the less the nearer they are to its ends, the cusps
+  // the crest goes through its lowest place: the nearest of its points moves there, the others the
+  // less the nearer they are to its ends, the cusps
   const auto& crest = ridge.crest_mm;
   std::size_t near = 0;
   for (std::size_t i = 1; i < crest.size(); ++i)
@@ -84,17 +99,21 @@ void put_ridge(MarginalRidge& ridge, Vec3 at) {
   const Vec3 way = at - crest[near];
   const std::size_t last = crest.size() - 1;
   for (std::size_t i = 0; i <= last; ++i) {
-    const double to_end = i <= near ? static_cast<double>(i) / static_cast<double>(std::max<std::size_t>(near, 1))
-                                    : static_cast<double>(last - i) / static_cast<double>(last - near);
+    const double to_end =
+        i <= near ? static_cast<double>(i) / static_cast<double>(std::max<std::size_t>(near, 1))
+                  : static_cast<double>(last - i) / static_cast<double>(last - near);
     ridge.crest_mm[i] = i == near ? at : crest[i] + way * to_end;
   }
 }
 
-/// The central fissure ends at its pit: what lies beyond the place nearest to it goes, and the pit takes that place.
+/// The central fissure ends at its pit: what lies beyond the place nearest to it goes, and the pit
+/// takes that place.
 void end_fissure(Polyline& fissure, Vec3 pit, bool distal) {
   if (fissure.empty()) return;
   if (distal) std::reverse(fissure.begin(), fissure.end());
-  const auto near = std::min_element(fissure.begin(), fissure.end(), [&](Vec3 a, Vec3 b) { return flat_distance(a, pit) < flat_distance(b, pit); });
+  const auto near = std::min_element(fissure.begin(), fissure.end(), [&](Vec3 a, Vec3 b) {
+    return flat_distance(a, pit) < flat_distance(b, pit);
+  });
   if (fissure.end() - near > 1) fissure.erase(fissure.begin(), near);  // a line keeps two points
   fissure.front() = pit;
   if (distal) std::reverse(fissure.begin(), fissure.end());
@@ -139,18 +158,24 @@ bool put(const Name& name, Vec3 at, Landmarks& l) {
   }
 }
 
-/// Where no fissure was found, on a worn crown say, and a person put both ends: straight from pit to pit.
+/// Where no fissure was found, on a worn crown say, and a person put both ends: straight from pit
+/// to pit.
 void draw_fissure(Landmarks& l) {
-  const auto put = [&](const char* name) { return std::find(l.moved.begin(), l.moved.end(), name) != l.moved.end(); };
+  const auto put = [&](const char* name) {
+    return std::find(l.moved.begin(), l.moved.end(), name) != l.moved.end();
+  };
   if (!l.central_fissure_mm.empty() || !put("mesial_pit") || !put("distal_pit")) return;
   constexpr int k_parts = 10;
   std::vector<Vec3> pits{*l.mesial_pit_mm};
   if (l.central_pit_mm) pits.push_back(*l.central_pit_mm);
   pits.push_back(*l.distal_pit_mm);
   for (std::size_t i = 0; i + 1 < pits.size(); ++i)
-    for (int k = 0; k < k_parts; ++k) l.central_fissure_mm.push_back(pits[i] + (pits[i + 1] - pits[i]) * (static_cast<double>(k) / k_parts));
+    for (int k = 0; k < k_parts; ++k)
+      l.central_fissure_mm.push_back(pits[i] +
+                                     (pits[i + 1] - pits[i]) * (static_cast<double>(k) / k_parts));
   l.central_fissure_mm.push_back(pits.back());
-  l.notes.emplace_back(msg("the central fissure is drawn straight between the pits that were put by hand"));
+  l.notes.emplace_back(
+      msg("the central fissure is drawn straight between the pits that were put by hand"));
 }
 
 }  // namespace
@@ -166,8 +191,9 @@ void place_landmarks(const std::vector<NamedPoint>& placed, Landmarks& landmarks
     if (known && put(*known, at, landmarks))
       landmarks.moved.push_back(name);
     else
-      landmarks.notes.push_back(known ? msg("the point '{}' that was put is beyond the end of its list", name)
-                                      : msg("the point '{}' that was put is of no known name", name));
+      landmarks.notes.push_back(
+          known ? msg("the point '{}' that was put is beyond the end of its list", name)
+                : msg("the point '{}' that was put is of no known name", name));
   }
   draw_fissure(landmarks);
 }
@@ -175,7 +201,8 @@ void place_landmarks(const std::vector<NamedPoint>& placed, Landmarks& landmarks
 std::vector<NamedPoint> named_points(const Landmarks& l) {
   std::vector<NamedPoint> out;
   const auto list = [&](std::string_view name, const auto& items, const auto& place) {
-    for (std::size_t i = 0; i < items.size(); ++i) out.push_back({fmt::format("{}_{}", name, i + 1), place(items[i])});
+    for (std::size_t i = 0; i < items.size(); ++i)
+      out.push_back({fmt::format("{}_{}", name, i + 1), place(items[i])});
   };
   const auto one = [&](std::string_view name, const std::optional<Vec3>& at) {
     if (at) out.push_back({std::string(name), *at});

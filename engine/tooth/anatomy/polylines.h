@@ -8,8 +8,10 @@
 
 namespace cavum {
 
-/// Cells as a line: places smoothed by `passes` of 1-2-1 along it, heights from `map`. The ends of an open line stay.
-[[nodiscard]] inline Polyline line_of(const HeightMap& map, const std::vector<int>& cells, bool closed, int passes) {
+/// Cells as a line: places smoothed by `passes` of 1-2-1 along it, heights from `map`. The ends of
+/// an open line stay.
+[[nodiscard]] inline Polyline line_of(const HeightMap& map, const std::vector<int>& cells,
+                                      bool closed, int passes) {
   Polyline line;
   for (const int c : cells) line.push_back(map.place(c));
   const std::size_t n = line.size();
@@ -30,7 +32,9 @@ namespace cavum {
   return out;
 }
 
-[[nodiscard]] inline double flat_distance(Vec3 a, Vec3 b) noexcept { return length({a.x - b.x, a.y - b.y, 0}); }
+[[nodiscard]] inline double flat_distance(Vec3 a, Vec3 b) noexcept {
+  return length({a.x - b.x, a.y - b.y, 0});
+}
 
 [[nodiscard]] inline double flat_length(const Polyline& line) noexcept {
   double sum = 0;

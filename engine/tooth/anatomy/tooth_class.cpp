@@ -11,8 +11,9 @@ namespace cavum {
 namespace {
 
 constexpr double k_top_mm = 1.0, k_level_mm = 0.05;
-// Mean crown widths (mesiodistal x buccolingual, mm; Nelson, Wheeler's Dental Anatomy, table of measurements): incisors 5-8.5 x 6-7, canines
-// 7-7.5 x 7.5-8, premolars 7 x 7.5-9, molars 8.5-11 x 9.5-11. Premolars have at most 7 x 9 = 63 mm2, molars at least 8.5 x 9.5 = 81.
+// Mean crown widths (mesiodistal x buccolingual, mm; Nelson, Wheeler's Dental Anatomy, table of
+// measurements): incisors 5-8.5 x 6-7, canines 7-7.5 x 7.5-8, premolars 7 x 7.5-9, molars 8.5-11
+// x 9.5-11. Premolars have at most 7 x 9 = 63 mm2, molars at least 8.5 x 9.5 = 81.
 constexpr double k_premolar_mm2 = 70.0, k_molar_mm2 = 76.0, k_large_mm2 = 88.0;
 
 /// Length and width of a set of places by their longest direction, every 5 degrees.
@@ -42,7 +43,8 @@ Span span_of(const std::vector<Vec3>& places) {
 
 }  // namespace
 
-ClassSigns class_signs(const CrownWalls& walls, const std::vector<int>& contour, const HeightMap& map, std::size_t cusps, bool table) {
+ClassSigns class_signs(const CrownWalls& walls, const std::vector<int>& contour,
+                       const HeightMap& map, std::size_t cusps, bool table) {
   ClassSigns s;
   s.cusps = cusps;
   s.table = table;
@@ -84,7 +86,8 @@ ClassGuess guess_class(const ClassSigns& s) {
   ClassGuess guess;
   const double area = s.wide_x_mm * s.wide_y_mm;
   const auto say = [&](ToothClass kind, double probability, const Message& shape) {
-    guess = {kind, probability, msg("{}; crown {} x {}", shape, as_number(s.wide_x_mm, 1), as_mm(s.wide_y_mm, 1))};
+    guess = {kind, probability,
+             msg("{}; crown {} x {}", shape, as_number(s.wide_x_mm, 1), as_mm(s.wide_y_mm, 1))};
   };
   if (s.level_share > 0.3) {
     say(ToothClass::unknown, 0.0, msg("{} of the top are level", as_percent(100 * s.level_share)));
@@ -93,13 +96,18 @@ ClassGuess guess_class(const ClassSigns& s) {
   const Number top_long = as_number(s.top_long_mm, 1), top_short = as_mm(s.top_short_mm, 1);
   const bool small = s.long_mm < 10.0;
   if (!s.table && s.cusps <= 1 && small) {
-    const double slender = s.top_long_mm / std::max(s.top_short_mm, 0.1), share = s.top_long_mm / s.long_mm;
+    const double slender = s.top_long_mm / std::max(s.top_short_mm, 0.1),
+                 share = s.top_long_mm / s.long_mm;
     if (slender >= 1.8 && share >= 0.6)
-      say(ToothClass::incisor, share >= 0.7 ? 0.9 : 0.7, msg("an edge and no table: the highest millimetre is {} x {}", top_long, top_short));
+      say(ToothClass::incisor, share >= 0.7 ? 0.9 : 0.7,
+          msg("an edge and no table: the highest millimetre is {} x {}", top_long, top_short));
     else if (share <= 0.5 && slender < 2.2)
-      say(ToothClass::canine, share <= 0.45 ? 0.8 : 0.6, msg("one cusp and no table: the highest millimetre is {} x {}", top_long, top_short));
+      say(ToothClass::canine, share <= 0.45 ? 0.8 : 0.6,
+          msg("one cusp and no table: the highest millimetre is {} x {}", top_long, top_short));
     else
-      say(ToothClass::unknown, 0.0, msg("between an edge and a cusp: the highest millimetre is {} x {}", top_long, top_short));
+      say(ToothClass::unknown, 0.0,
+          msg("between an edge and a cusp: the highest millimetre is {} x {}", top_long,
+              top_short));
     return guess;
   }
   if (!s.table && s.cusps <= 1) {
@@ -107,14 +115,24 @@ ClassGuess guess_class(const ClassSigns& s) {
     return guess;
   }
   const Message seen =
-      s.table ? msgn("{} cusp around a table", "{} cusps around a table", s.cusps, s.cusps) : msgn("{} cusp", "{} cusps", s.cusps, s.cusps);
+      s.table ? msgn("{} cusp around a table", "{} cusps around a table", s.cusps, s.cusps)
+              : msgn("{} cusp", "{} cusps", s.cusps, s.cusps);
   const bool many = s.cusps >= 4, some = s.cusps == 3;
   if (area >= k_molar_mm2) {
     // a table of that size is a molar's, however worn its cusps are
     const bool large = s.table && area >= k_large_mm2;
-    say(many || some || large ? ToothClass::molar : ToothClass::unknown, many ? 0.95 : some ? 0.8 : large ? 0.7 : 0.0, seen);
+    say(many || some || large ? ToothClass::molar : ToothClass::unknown,
+        many    ? 0.95
+        : some  ? 0.8
+        : large ? 0.7
+                : 0.0,
+        seen);
   } else if (area <= k_premolar_mm2)
-    say(s.cusps <= 3 ? ToothClass::premolar : ToothClass::unknown, s.cusps == 2 ? 0.95 : s.cusps <= 3 ? 0.7 : 0.0, seen);
+    say(s.cusps <= 3 ? ToothClass::premolar : ToothClass::unknown,
+        s.cusps == 2   ? 0.95
+        : s.cusps <= 3 ? 0.7
+                       : 0.0,
+        seen);
   else
     say(many           ? ToothClass::molar
         : s.cusps == 2 ? ToothClass::premolar

@@ -1,4 +1,5 @@
-// What can be wrong with a tooth that is imported, once its files were read (their own mistakes are FileErrors).
+// What can be wrong with a tooth that is imported, once its files were read (their own mistakes are
+// FileErrors).
 #pragma once
 
 #include "engine/base/named_enum.h"

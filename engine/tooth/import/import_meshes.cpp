@@ -23,9 +23,14 @@ constexpr float k_widest_gap_leaves = 2.0f;
 
 TissueGrid lattice_around(const Bounds& box, double leaf_mm, const std::string& where) {
   if (!(leaf_mm > 0 && std::isfinite(leaf_mm)))
-    throw Error(ImportError::bad_option, Name{"--leaf-mm"}, msg("the leaf must be larger than 0 mm"), msg("give 0.05, for example"));
-  const auto low = [&](double v) { return static_cast<std::int32_t>(std::clamp(std::floor(v / leaf_mm), -1e8, 1e8)) - 4; };
-  const auto high = [&](double v) { return static_cast<std::int32_t>(std::clamp(std::ceil(v / leaf_mm), -1e8, 1e8)) + 4; };
+    throw Error(ImportError::bad_option, Name{"--leaf-mm"},
+                msg("the leaf must be larger than 0 mm"), msg("give 0.05, for example"));
+  const auto low = [&](double v) {
+    return static_cast<std::int32_t>(std::clamp(std::floor(v / leaf_mm), -1e8, 1e8)) - 4;
+  };
+  const auto high = [&](double v) {
+    return static_cast<std::int32_t>(std::clamp(std::ceil(v / leaf_mm), -1e8, 1e8)) + 4;
+  };
   const IVec3 first{low(box.low.x), low(box.low.y), low(box.low.z)};
   const IVec3 size = IVec3{high(box.high.x), high(box.high.y), high(box.high.z)} - first;
   check_lattice(size, leaf_mm, where);
@@ -36,7 +41,8 @@ TissueGrid lattice_around(const Bounds& box, double leaf_mm, const std::string& 
 
 Vec3 direction(const TissueGrid& grid, const std::vector<float>& field, IVec3 l) {
   const auto at = [&](IVec3 i) { return static_cast<double>(field[grid.index(i)]); };
-  return normalized({at(l + IVec3{1, 0, 0}) - at(l - IVec3{1, 0, 0}), at(l + IVec3{0, 1, 0}) - at(l - IVec3{0, 1, 0}),
+  return normalized({at(l + IVec3{1, 0, 0}) - at(l - IVec3{1, 0, 0}),
+                     at(l + IVec3{0, 1, 0}) - at(l - IVec3{0, 1, 0}),
                      at(l + IVec3{0, 0, 1}) - at(l - IVec3{0, 0, 1})},
                     {0, 0, 0});
 }
@@ -46,7 +52,8 @@ std::vector<std::uint8_t> outside_air(const TissueGrid& grid) {
   std::vector<std::uint8_t> reached(grid.count(), 0);
   std::vector<std::size_t> front{0};  // a corner of the margin
   reached[0] = 1;
-  const std::size_t nx = static_cast<std::size_t>(grid.size.x), nxy = nx * static_cast<std::size_t>(grid.size.y);
+  const std::size_t nx = static_cast<std::size_t>(grid.size.x),
+                    nxy = nx * static_cast<std::size_t>(grid.size.y);
   while (!front.empty()) {
     const std::size_t i = front.back();
     front.pop_back();
@@ -76,7 +83,8 @@ Overlaps label_by_precedence(TissueGrid& grid, const Layers& f) {
   Overlaps overlaps;
   std::uint64_t enamel = 0, pulp = 0, chamber = 0, enamel_in_dentin = 0, pulp_in_dentin = 0;
   for (std::size_t i = 0; i < grid.tissue.size(); ++i) {
-    const bool e = f.enamel[i] < 0, d = f.dentin[i] < 0, p = f.pulp[i] < 0, in_dentin = d && f.chamber[i] == 0;
+    const bool e = f.enamel[i] < 0, d = f.dentin[i] < 0, p = f.pulp[i] < 0,
+               in_dentin = d && f.chamber[i] == 0;
     overlaps.leaves += e + in_dentin + p > 1;
     const std::uint8_t t = p ? k_pulp : e ? k_enamel : d ? k_dentin : k_air;
     grid.tissue[i] = t;
@@ -86,7 +94,9 @@ Overlaps label_by_precedence(TissueGrid& grid, const Layers& f) {
     pulp += p;
     pulp_in_dentin += p && in_dentin;
   }
-  const auto share = [](std::uint64_t part, std::uint64_t of) { return of > 0 ? static_cast<double>(part) / static_cast<double>(of) : 0.0; };
+  const auto share = [](std::uint64_t part, std::uint64_t of) {
+    return of > 0 ? static_cast<double>(part) / static_cast<double>(of) : 0.0;
+  };
   overlaps.of_the_enamel = share(enamel_in_dentin, enamel);
   overlaps.of_the_pulp = share(pulp_in_dentin, pulp);
   overlaps.chamber = share(chamber, pulp);
@@ -103,11 +113,15 @@ std::uint64_t close_gaps(TissueGrid& grid, const Layers& f) {
         const auto i = grid.index(l);
         if (grid.tissue[i] != k_air) continue;
         const auto facing = [&](const std::vector<float>& a, const std::vector<float>& b) {
-          return a[i] + b[i] <= k_widest_gap_leaves && dot(direction(grid, a, l), direction(grid, b, l)) < -0.5;
+          return a[i] + b[i] <= k_widest_gap_leaves &&
+                 dot(direction(grid, a, l), direction(grid, b, l)) < -0.5;
         };
-        if (facing(f.enamel, f.dentin) || facing(f.dentin, f.pulp) || facing(f.enamel, f.pulp)) gaps.push_back(i);
+        if (facing(f.enamel, f.dentin) || facing(f.dentin, f.pulp) || facing(f.enamel, f.pulp))
+          gaps.push_back(i);
       }
-  const auto give = [&](std::size_t i) { grid.tissue[i] = f.enamel[i] < f.dentin[i] ? k_enamel : k_dentin; };
+  const auto give = [&](std::size_t i) {
+    grid.tissue[i] = f.enamel[i] < f.dentin[i] ? k_enamel : k_dentin;
+  };
   for (const auto i : gaps) give(i);
   std::uint64_t closed = gaps.size();
   const auto reached = outside_air(grid);
@@ -126,10 +140,12 @@ void check_layers(const TissueGrid& grid, const MeshPaths& paths) {
   if (all == 0)
     throw Error(ImportError::no_tissue, Name{paths.pulp}, msg("the pulp is smaller than a leaf"),
                 msg("check the unit (mm), or use a smaller --leaf-mm"));
-  require_layer_order(touched, fmt::format("{}, {}", paths.enamel, paths.dentin), msg("exchange --enamel and --dentin"));
+  require_layer_order(touched, fmt::format("{}, {}", paths.enamel, paths.dentin),
+                      msg("exchange --enamel and --dentin"));
   if (touched[k_air] * 5 > all)
     throw Error(ImportError::layers_apart, Name{paths.pulp},
-                msg("the pulp is not enclosed by the dentin: {} % of its surface is bare", 100 * touched[k_air] / all),
+                msg("the pulp is not enclosed by the dentin: {} % of its surface is bare",
+                    100 * touched[k_air] / all),
                 msg("check which file is enamel, dentin and pulp, and that all share one frame"));
 }
 
@@ -152,11 +168,15 @@ struct ThreeMeshes {
 };
 
 /// What each leaf is, and that the three files can be of one tooth.
-void label_leaves(const ThreeMeshes& m, const MeshPaths& paths, const SenseOptions& sense, TissueGrid& grid, MeshImport& out) {
+void label_leaves(const ThreeMeshes& m, const MeshPaths& paths, const SenseOptions& sense,
+                  TissueGrid& grid, MeshImport& out) {
   check_triangle_work(grid, m.enamel.mesh, paths.enamel);
   check_triangle_work(grid, m.dentin.mesh, paths.dentin);
   check_triangle_work(grid, m.pulp.mesh, paths.pulp);
-  Layers fields{fill_mesh(m.enamel.mesh, grid), fill_mesh(m.dentin.mesh, grid), fill_mesh(m.pulp.mesh, grid), {}};
+  Layers fields{fill_mesh(m.enamel.mesh, grid),
+                fill_mesh(m.dentin.mesh, grid),
+                fill_mesh(m.pulp.mesh, grid),
+                {}};
   fields.chamber = hollows(m.dentin.mesh, fields.dentin, grid);
   const Overlaps overlaps = label_by_precedence(grid, fields);
   out.overlap_leaves = overlaps.leaves;
@@ -173,15 +193,21 @@ void label_leaves(const ThreeMeshes& m, const MeshPaths& paths, const SenseOptio
   tell_pieces(pieces, out.sense);
 }
 
-/// Only what parts solid from void is a surface: enamel on dentin is not, nor a dentin face near the pulp's.
+/// Only what parts solid from void is a surface: enamel on dentin is not, nor a dentin face near
+/// the pulp's.
 void encode_surfaces(const ThreeMeshes& m, TissueGrid& grid, const std::vector<Tissue>& tissues) {
   const auto label = [&](Vec3 mm) {
     const Vec3 p = (mm - grid.origin_mm) / grid.leaf_mm;
-    return grid.tissue[grid.index({static_cast<std::int32_t>(p.x), static_cast<std::int32_t>(p.y), static_cast<std::int32_t>(p.z)})];
+    return grid.tissue[grid.index({static_cast<std::int32_t>(p.x), static_cast<std::int32_t>(p.y),
+                                   static_cast<std::int32_t>(p.z)})];
   };
   const auto hard = [](std::uint8_t t) { return t == k_enamel || t == k_dentin; };
-  const AcceptSurface outer = [&](Vec3 q, Vec3 n) { return label(q + n * grid.leaf_mm) == k_air && hard(label(q - n * (0.75 * grid.leaf_mm))); };
-  const AcceptSurface inner = [&](Vec3 q, Vec3 n) { return hard(label(q + n * grid.leaf_mm)) && label(q - n * (0.75 * grid.leaf_mm)) == k_pulp; };
+  const AcceptSurface outer = [&](Vec3 q, Vec3 n) {
+    return label(q + n * grid.leaf_mm) == k_air && hard(label(q - n * (0.75 * grid.leaf_mm)));
+  };
+  const AcceptSurface inner = [&](Vec3 q, Vec3 n) {
+    return hard(label(q + n * grid.leaf_mm)) && label(q - n * (0.75 * grid.leaf_mm)) == k_pulp;
+  };
   BandDistance band(grid);
   band.add(m.enamel.mesh, outer);
   band.add(m.dentin.mesh, outer);
@@ -192,13 +218,15 @@ void encode_surfaces(const ThreeMeshes& m, TissueGrid& grid, const std::vector<T
 }  // namespace
 
 MeshImport import_meshes(const MeshPaths& paths, const MeshImportOptions& options) {
-  ThreeMeshes meshes{read_closed_mesh(paths.enamel), read_closed_mesh(paths.dentin), read_closed_mesh(paths.pulp)};
+  ThreeMeshes meshes{read_closed_mesh(paths.enamel), read_closed_mesh(paths.dentin),
+                     read_closed_mesh(paths.pulp)};
   auto& [enamel, dentin, pulp] = meshes;
   const double unit_mm = options.sense.units.empty() ? 1.0 : mm_per_unit(options.sense.units);
   for (auto* m : {&enamel, &dentin, &pulp}) scale(*m, unit_mm);
   const FrameOptions settled = settled_frame(options.frame, options.sense);
   const ToothAxes frame = tooth_axes(dentin.centroid_mm, enamel.centroid_mm, settled);
-  for (auto* m : {&enamel.mesh, &dentin.mesh, &pulp.mesh}) turn_into(*m, frame.axes, settled.mirror);
+  for (auto* m : {&enamel.mesh, &dentin.mesh, &pulp.mesh})
+    turn_into(*m, frame.axes, settled.mirror);
   Bounds crown, all;
   for (const Vec3 v : enamel.mesh.vertices_mm) crown.add(v);
   MeshImport out;
@@ -215,15 +243,18 @@ MeshImport import_meshes(const MeshPaths& paths, const MeshImportOptions& option
   label_leaves(meshes, paths, options.sense, grid, out);
   encode_surfaces(meshes, grid, out.tooth.tissues);
   // exchanged layers have the plainer name, and were refused above
-  check_upright(frame.axes.row_z, dentin.centroid_mm, enamel.centroid_mm, options.sense, paths.enamel, out.sense);
+  check_upright(frame.axes.row_z, dentin.centroid_mm, enamel.centroid_mm, options.sense,
+                paths.enamel, out.sense);
   out.periodontium_leaves = add_periodontium(grid, options.periodontium_mm);
   out.tooth.octree = Octree(grid, out.tooth.tissues);
 
   const auto read = [](const std::string& path, const ReadMesh& mesh) {
-    return SourceMesh{std::filesystem::path(path).filename().string(), mesh.unused_vertices, mesh.turned};
+    return SourceMesh{std::filesystem::path(path).filename().string(), mesh.unused_vertices,
+                      mesh.turned};
   };
-  out.tooth.source = {ImportedMeshes{read(paths.enamel, enamel), read(paths.dentin, dentin), read(paths.pulp, pulp), options.sense.units,
-                                     options.leaf_mm, frame.source, out.overlap_leaves, out.gap_leaves,
+  out.tooth.source = {ImportedMeshes{read(paths.enamel, enamel), read(paths.dentin, dentin),
+                                     read(paths.pulp, pulp), options.sense.units, options.leaf_mm,
+                                     frame.source, out.overlap_leaves, out.gap_leaves,
                                      out.periodontium_leaves > 0 ? options.periodontium_mm : 0.0}};
   out.tooth.name = "tooth from " + std::filesystem::path(paths.enamel).stem().string();
   sense_tooth(out.tooth, settled, options.sense, paths.enamel, out.sense);

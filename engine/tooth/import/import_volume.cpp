@@ -22,13 +22,15 @@ namespace {
 /// Catmull-Rom weights of the four voxels around a position t in 0..1 between the middle two.
 std::array<double, 4> cubic_weights(double t) {
   const double t2 = t * t, t3 = t2 * t;
-  return {0.5 * (-t3 + 2 * t2 - t), 0.5 * (3 * t3 - 5 * t2 + 2), 0.5 * (-3 * t3 + 4 * t2 + t), 0.5 * (t3 - t2)};
+  return {0.5 * (-t3 + 2 * t2 - t), 0.5 * (3 * t3 - 5 * t2 + 2), 0.5 * (-3 * t3 + 4 * t2 + t),
+          0.5 * (t3 - t2)};
 }
 
 /// A field on voxels, read between them. Beyond the volume it is `outside`.
 class Field {
  public:
-  Field(IVec3 size, const std::vector<float>& values, float outside) : size_(size), values_(values), outside_(outside) {}
+  Field(IVec3 size, const std::vector<float>& values, float outside)
+      : size_(size), values_(values), outside_(outside) {}
 
   [[nodiscard]] float at(IVec3 v) const noexcept {
     if (!lies_in(v, size_)) return outside_;
@@ -37,23 +39,29 @@ class Field {
   [[nodiscard]] double linear(Vec3 p) const noexcept {
     const IVec3 l = low(p);
     const double fx = p.x - l.x, fy = p.y - l.y, fz = p.z - l.z;
-    const auto along = [&](int y, int z) { return at(l + IVec3{0, y, z}) * (1 - fx) + at(l + IVec3{1, y, z}) * fx; };
-    return (along(0, 0) * (1 - fy) + along(1, 0) * fy) * (1 - fz) + (along(0, 1) * (1 - fy) + along(1, 1) * fy) * fz;
+    const auto along = [&](int y, int z) {
+      return at(l + IVec3{0, y, z}) * (1 - fx) + at(l + IVec3{1, y, z}) * fx;
+    };
+    return (along(0, 0) * (1 - fy) + along(1, 0) * fy) * (1 - fz) +
+           (along(0, 1) * (1 - fy) + along(1, 1) * fy) * fz;
   }
   [[nodiscard]] double cubic(Vec3 p) const noexcept {
     const IVec3 l = low(p);
-    const auto wx = cubic_weights(p.x - l.x), wy = cubic_weights(p.y - l.y), wz = cubic_weights(p.z - l.z);
+    const auto wx = cubic_weights(p.x - l.x), wy = cubic_weights(p.y - l.y),
+               wz = cubic_weights(p.z - l.z);
     double sum = 0.0;
     for (int z = 0; z < 4; ++z)
       for (int y = 0; y < 4; ++y) {
         double row = 0.0;
-        for (int x = 0; x < 4; ++x) row += wx[static_cast<std::size_t>(x)] * at(l + IVec3{x - 1, y - 1, z - 1});
+        for (int x = 0; x < 4; ++x)
+          row += wx[static_cast<std::size_t>(x)] * at(l + IVec3{x - 1, y - 1, z - 1});
         sum += row * wy[static_cast<std::size_t>(y)] * wz[static_cast<std::size_t>(z)];
       }
     return sum;
   }
   [[nodiscard]] static IVec3 low(Vec3 p) noexcept {
-    return {static_cast<std::int32_t>(std::floor(p.x)), static_cast<std::int32_t>(std::floor(p.y)), static_cast<std::int32_t>(std::floor(p.z))};
+    return {static_cast<std::int32_t>(std::floor(p.x)), static_cast<std::int32_t>(std::floor(p.y)),
+            static_cast<std::int32_t>(std::floor(p.z))};
   }
 
  private:
@@ -62,7 +70,8 @@ class Field {
   float outside_;
 };
 
-/// Cells (between eight voxels) whose cubic neighbourhood holds both signs; elsewhere one voxel tells the side.
+/// Cells (between eight voxels) whose cubic neighbourhood holds both signs; elsewhere one voxel
+/// tells the side.
 std::vector<std::uint8_t> mixed_cells(IVec3 size, const std::vector<float>& solid) {
   const Field f(size, solid, -1.0f);
   std::vector<std::uint8_t> mixed(solid.size(), 0);
@@ -71,13 +80,16 @@ std::vector<std::uint8_t> mixed_cells(IVec3 size, const std::vector<float>& soli
     for (std::int32_t y = 0; y < size.y; ++y)
       for (std::int32_t x = 0; x < size.x; ++x) {
         const bool in = f.at({x, y, z}) > 0;
-        if ((f.at({x + 1, y, z}) > 0) == in && (f.at({x, y + 1, z}) > 0) == in && (f.at({x, y, z + 1}) > 0) == in) continue;
+        if ((f.at({x + 1, y, z}) > 0) == in && (f.at({x, y + 1, z}) > 0) == in &&
+            (f.at({x, y, z + 1}) > 0) == in)
+          continue;
         for (int dz = -2; dz <= 2; ++dz)
           for (int dy = -2; dy <= 2; ++dy)
             for (int dx = -2; dx <= 2; ++dx) {
               const IVec3 c{x + dx, y + dy, z + dz};
               if (lies_in(c, size))
-                mixed[static_cast<std::size_t>(c.z) * nxy + static_cast<std::size_t>(c.y) * nx + static_cast<std::size_t>(c.x)] = 1;
+                mixed[static_cast<std::size_t>(c.z) * nxy + static_cast<std::size_t>(c.y) * nx +
+                      static_cast<std::size_t>(c.x)] = 1;
             }
       }
   return mixed;
@@ -103,13 +115,18 @@ void for_voxels(const Segmentation& s, const Visit& visit) {
         if (s.tissue[i] != k_air) visit(Vec3{double(x), double(y), double(z)}, s.tissue[i]);
 }
 
-TissueGrid resample(const Volume& volume, const Segmentation& s, const Mat3& axes, Vec3 origin, const Extent& box, double leaf_mm,
-                    const std::string& where) {
+TissueGrid resample(const Volume& volume, const Segmentation& s, const Mat3& axes, Vec3 origin,
+                    const Extent& box, double leaf_mm, const std::string& where) {
   if (!(leaf_mm > 0 && std::isfinite(leaf_mm)))
-    throw Error(ImportError::bad_option, Name{"--leaf-mm"}, msg("the leaf must be larger than 0 mm"), msg("give 0.05, for example"));
+    throw Error(ImportError::bad_option, Name{"--leaf-mm"},
+                msg("the leaf must be larger than 0 mm"), msg("give 0.05, for example"));
   const double reach = std::max({volume.spacing_mm[0], volume.spacing_mm[1], volume.spacing_mm[2]});
-  const auto low = [&](double v) { return static_cast<std::int32_t>(std::clamp(std::floor((v - reach) / leaf_mm), -1e8, 1e8)) - 4; };
-  const auto high = [&](double v) { return static_cast<std::int32_t>(std::clamp(std::ceil((v + reach) / leaf_mm), -1e8, 1e8)) + 4; };
+  const auto low = [&](double v) {
+    return static_cast<std::int32_t>(std::clamp(std::floor((v - reach) / leaf_mm), -1e8, 1e8)) - 4;
+  };
+  const auto high = [&](double v) {
+    return static_cast<std::int32_t>(std::clamp(std::ceil((v + reach) / leaf_mm), -1e8, 1e8)) + 4;
+  };
   const IVec3 first{low(box.low.x), low(box.low.y), low(box.low.z)};
   const IVec3 size = IVec3{high(box.high.x), high(box.high.y), high(box.high.z)} - first;
   check_lattice(size, leaf_mm, where);
@@ -126,7 +143,9 @@ TissueGrid resample(const Volume& volume, const Segmentation& s, const Mat3& axe
   }
   const Field enamel_or_dentin(s.size, enamel, 0.0f), pulp_or_air(s.size, pulp, -1.0f);
   const auto mixed = mixed_cells(s.size, s.solid);
-  const auto voxel_of = [&](Vec3 tooth_mm) { return volume.voxel_at(axes.transposed(tooth_mm + origin)); };
+  const auto voxel_of = [&](Vec3 tooth_mm) {
+    return volume.voxel_at(axes.transposed(tooth_mm + origin));
+  };
   std::vector<float> field(grid.count());
   for (std::int32_t z = 0; z < size.z; ++z)
     for (std::int32_t y = 0; y < size.y; ++y)
@@ -142,18 +161,22 @@ TissueGrid resample(const Volume& volume, const Segmentation& s, const Mat3& axe
         else
           grid.tissue[i] = pulp_or_air.linear(p) > 0 ? k_pulp : k_air;
       }
-  set_surface_from_field(grid, standard_tissues(), field, [&](Vec3 mm) { return -solid.cubic(voxel_of(mm)); });
+  set_surface_from_field(grid, standard_tissues(), field,
+                         [&](Vec3 mm) { return -solid.cubic(voxel_of(mm)); });
   return grid;
 }
 
 void require_few_gray(const Volume& volume, const std::string& path) {
   std::uint64_t bytes = 0;
   if (std::filesystem::is_directory(path))
-    for (const auto& entry : std::filesystem::directory_iterator(path)) bytes += entry.is_regular_file() ? entry.file_size() : 0;
+    for (const auto& entry : std::filesystem::directory_iterator(path))
+      bytes += entry.is_regular_file() ? entry.file_size() : 0;
   else
     bytes = bytes_of_volume(path);
   if (volume.voxels() > most_gray_voxels(bytes))
-    throw Error(path, msg("has {} voxels of gray, more than {}, the most for {} bytes of files", volume.voxels(), most_gray_voxels(bytes), bytes),
+    throw Error(path,
+                msg("has {} voxels of gray, more than {}, the most for {} bytes of files",
+                    volume.voxels(), most_gray_voxels(bytes), bytes),
                 msg("crop the volume to the tooth, or save it uncompressed"));
 }
 
@@ -162,7 +185,8 @@ struct Reading {
   Segmentation tissues;
   std::optional<GrayReading> gray;
 };
-Reading read_tissues(const Volume& volume, const VolumeImportOptions& options, const std::string& path) {
+Reading read_tissues(const Volume& volume, const VolumeImportOptions& options,
+                     const std::string& path) {
   if (options.labels.empty()) {
     require_few_gray(volume, path);
     const auto levels = find_gray_levels(volume, options.thresholds, path);
@@ -179,11 +203,13 @@ Reading read_tissues(const Volume& volume, const VolumeImportOptions& options, c
   }
   Segmentation s = from_labels(volume, options.labels, path);
   if (s.voxels[k_enamel] > 0 && s.voxels[k_dentin] > 0)
-    require_layer_order(pulp_faces(s.size, s.tissue), path, msg("exchange enamel and dentin in --map"));
+    require_layer_order(pulp_faces(s.size, s.tissue), path,
+                        msg("exchange enamel and dentin in --map"));
   return {std::move(s), std::nullopt};
 }
 
-/// Where the tooth stands in its own frame: z towards the occlusal surface, the middle of the crown at the origin.
+/// Where the tooth stands in its own frame: z towards the occlusal surface, the middle of the crown
+/// at the origin.
 struct Placement {
   ToothAxes frame;
   Vec3 origin;                            // of the tooth, in the turned frame of the volume, mm
@@ -191,7 +217,8 @@ struct Placement {
   Vec3 crown;                             // widths and height of the enamel, mm
   Vec3 enamel_centroid, dentin_centroid;  // in the volume's frame, mm
 };
-Placement place_tooth(const Volume& volume, const Segmentation& s, const FrameOptions& options, const std::string& path) {
+Placement place_tooth(const Volume& volume, const Segmentation& s, const FrameOptions& options,
+                      const std::string& path) {
   Extent enamel, dentin;
   for_voxels(s, [&](Vec3 v, std::uint8_t t) {
     if (t == k_enamel) enamel.add(volume.place_mm(v));
@@ -199,7 +226,8 @@ Placement place_tooth(const Volume& volume, const Segmentation& s, const FrameOp
   });
   if ((enamel.n == 0 || dentin.n == 0) && !options.occlusal_axis)
     throw Error(ImportError::no_tissue, Name{path},
-                msg("holds no {}, so there is no occlusal direction", enamel.n == 0 ? msg("enamel") : msg("dentin")),
+                msg("holds no {}, so there is no occlusal direction",
+                    enamel.n == 0 ? msg("enamel") : msg("dentin")),
                 msg("give --occlusal-axis x,y,z"));
   Placement out{.frame = tooth_axes(dentin.centroid(), enamel.centroid(), options),
                 .origin = {},
@@ -223,8 +251,11 @@ Placement place_tooth(const Volume& volume, const Segmentation& s, const FrameOp
 /// Throws Error where a spacing that was assumed makes a tooth that nobody has.
 void require_size_of_a_tooth(const Volume& volume, const Extent& box, const std::string& path) {
   const Vec3 extent = box.high - box.low;
-  if (const double longest = std::max({extent.x, extent.y, extent.z}); volume.spacing_assumed && !(longest > 4 && longest < 45))
-    throw Error(path, msg("the file gives no spacing, and the assumed 0.125 mm would make a tooth of {}", as_mm(longest, k_as_needed)),
+  if (const double longest = std::max({extent.x, extent.y, extent.z});
+      volume.spacing_assumed && !(longest > 4 && longest < 45))
+    throw Error(path,
+                msg("the file gives no spacing, and the assumed 0.125 mm would make a tooth of {}",
+                    as_mm(longest, k_as_needed)),
                 msg("give --spacing-mm"));
 }
 
@@ -242,9 +273,11 @@ VolumeImport import_volume(const std::string& path, const VolumeImportOptions& o
   if (s.voxels[k_enamel] > 0) {
     check_crown_size(placed.crown, options.sense, path, true, out.sense);
     if (s.voxels[k_dentin] > 0)
-      check_upright(placed.frame.axes.row_z, placed.dentin_centroid, placed.enamel_centroid, options.sense, path, out.sense);
+      check_upright(placed.frame.axes.row_z, placed.dentin_centroid, placed.enamel_centroid,
+                    options.sense, path, out.sense);
   }
-  TissueGrid grid = resample(volume, s, placed.frame.axes, placed.origin, placed.box, options.leaf_mm, path);
+  TissueGrid grid =
+      resample(volume, s, placed.frame.axes, placed.origin, placed.box, options.leaf_mm, path);
   if (s.voxels[k_enamel] > 0 && s.voxels[k_dentin] > 0) {
     check_closed_pulp(open_pulp(grid), options.sense, path, out.sense);
     tell_bare_dentin(bare_dentin(grid), out.sense);
@@ -262,7 +295,8 @@ VolumeImport import_volume(const std::string& path, const VolumeImportOptions& o
   out.pulp_bodies = s.pulp_bodies;
   out.rim_percent = s.rim_percent;
   const auto file = std::filesystem::path(path).filename().string();
-  out.tooth.source = {ImportedVolume{file.empty() ? path : file, gray, out.spacing, options.leaf_mm, placed.frame.source,
+  out.tooth.source = {ImportedVolume{file.empty() ? path : file, gray, out.spacing, options.leaf_mm,
+                                     placed.frame.source,
                                      around > 0 ? options.periodontium_mm : 0.0}};
   out.tooth.name = "tooth from " + (file.empty() ? path : file);
   sense_tooth(out.tooth, settled, options.sense, path, out.sense);

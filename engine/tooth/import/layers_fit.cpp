@@ -47,7 +47,9 @@ PiecesOfEnamel pieces_of_enamel(const TissueGrid& grid) {
           piece.sum += grid.centre_mm(at);
           for (const IVec3 step : k_sides) {
             const IVec3 next = at + step;
-            if (next.x < 1 || next.y < 1 || next.z < 1 || next.x + 1 >= n.x || next.y + 1 >= n.y || next.z + 1 >= n.z) continue;
+            if (next.x < 1 || next.y < 1 || next.z < 1 || next.x + 1 >= n.x || next.y + 1 >= n.y ||
+                next.z + 1 >= n.z)
+              continue;
             piece.on_dentin = piece.on_dentin || grid.tissue[grid.index(next)] == k_dentin;
             take(next);
           }
@@ -77,15 +79,18 @@ std::array<std::uint64_t, 256> pulp_faces(IVec3 size, const std::vector<std::uin
   return faces;
 }
 
-void require_layer_order(const std::array<std::uint64_t, 256>& faces, const std::string& where, const Message& what_to_do) {
+void require_layer_order(const std::array<std::uint64_t, 256>& faces, const std::string& where,
+                         const Message& what_to_do) {
   if (faces[k_enamel] > faces[k_dentin] && faces[k_enamel] >= faces[k_air])
-    throw Error(ImportError::layers_exchanged, Name{where}, msg("enamel and dentin look exchanged: the pulp lies in the enamel"), what_to_do);
+    throw Error(ImportError::layers_exchanged, Name{where},
+                msg("enamel and dentin look exchanged: the pulp lies in the enamel"), what_to_do);
 }
 
 LayersApart layers_apart(const TissueGrid& grid) {
   constexpr double k_widest_mm = 3.0, k_seam_mm = 0.15;
   std::uint64_t runs = 0, together = 0;
-  const int most = static_cast<int>(k_widest_mm / grid.leaf_mm), seam = std::max(2, static_cast<int>(k_seam_mm / grid.leaf_mm));
+  const int most = static_cast<int>(k_widest_mm / grid.leaf_mm),
+            seam = std::max(2, static_cast<int>(k_seam_mm / grid.leaf_mm));
   std::vector<std::uint64_t> voids(static_cast<std::size_t>(most) + 1);  // by their width, leaves
   // along each axis: enamel and dentin one after the other, or with a void between them
   const auto walk = [&](int n, const auto& cell) {
@@ -111,11 +116,14 @@ LayersApart layers_apart(const TissueGrid& grid) {
   };
   const IVec3 n = grid.size;
   for (int z = 0; z < n.z; ++z)
-    for (int y = 0; y < n.y; ++y) walk(n.x, [&](int x) { return grid.tissue[grid.index({x, y, z})]; });
+    for (int y = 0; y < n.y; ++y)
+      walk(n.x, [&](int x) { return grid.tissue[grid.index({x, y, z})]; });
   for (int z = 0; z < n.z; ++z)
-    for (int x = 0; x < n.x; ++x) walk(n.y, [&](int y) { return grid.tissue[grid.index({x, y, z})]; });
+    for (int x = 0; x < n.x; ++x)
+      walk(n.y, [&](int y) { return grid.tissue[grid.index({x, y, z})]; });
   for (int y = 0; y < n.y; ++y)
-    for (int x = 0; x < n.x; ++x) walk(n.z, [&](int z) { return grid.tissue[grid.index({x, y, z})]; });
+    for (int x = 0; x < n.x; ++x)
+      walk(n.z, [&](int z) { return grid.tissue[grid.index({x, y, z})]; });
   std::uint64_t apart = 0, below = 0;
   for (const auto count : voids) apart += count;
   LayersApart found;
@@ -141,7 +149,8 @@ OpenPulp open_pulp(const TissueGrid& grid) {
           break;
         }
   std::uint64_t open = 0;
-  for (int z = std::max(1, lowest + static_cast<int>(k_above_neck_mm / grid.leaf_mm)); z + 1 < n.z; ++z)
+  for (int z = std::max(1, lowest + static_cast<int>(k_above_neck_mm / grid.leaf_mm)); z + 1 < n.z;
+       ++z)
     for (int y = 1; y + 1 < n.y; ++y)
       for (int x = 1; x + 1 < n.x; ++x) {
         if (grid.tissue[grid.index({x, y, z})] != k_pulp) continue;
@@ -157,18 +166,23 @@ OpenPulp open_pulp(const TissueGrid& grid) {
 
 BareDentin bare_dentin(const TissueGrid& grid) {
   constexpr double k_above_neck_mm = 1.0;
-  const PiecesOfEnamel pieces = pieces_of_enamel(grid);  // a pearl on a root is no part of the crown
-  const auto crown = std::max_element(pieces.list.begin(), pieces.list.end(), [](const Piece& a, const Piece& b) { return a.leaves < b.leaves; });
+  const PiecesOfEnamel pieces =
+      pieces_of_enamel(grid);  // a pearl on a root is no part of the crown
+  const auto crown =
+      std::max_element(pieces.list.begin(), pieces.list.end(),
+                       [](const Piece& a, const Piece& b) { return a.leaves < b.leaves; });
   const auto number = static_cast<std::uint32_t>(crown - pieces.list.begin() + 1);
   const NeckBySector neck(grid, [&](std::size_t cell) { return pieces.of_cell[cell] == number; });
   const auto above = static_cast<std::int32_t>(k_above_neck_mm / grid.leaf_mm);
   const IVec3 n = grid.size;
-  std::vector<std::uint8_t> faces(grid.count());  // on air, of dentin that is bare and was not yet counted
+  std::vector<std::uint8_t> faces(
+      grid.count());  // on air, of dentin that is bare and was not yet counted
   for (std::int32_t z = 1; z + 1 < n.z; ++z)
     for (std::int32_t y = 1; y + 1 < n.y; ++y)
       for (std::int32_t x = 1; x + 1 < n.x; ++x) {
         const IVec3 cell{x, y, z};
-        if (grid.tissue[grid.index(cell)] != k_dentin || z <= neck.lowest_enamel(cell) + above) continue;
+        if (grid.tissue[grid.index(cell)] != k_dentin || z <= neck.lowest_enamel(cell) + above)
+          continue;
         for (const IVec3 step : k_sides)
           if (grid.tissue[grid.index(cell + step)] == k_air) ++faces[grid.index(cell)];
       }
@@ -206,43 +220,56 @@ BareDentin bare_dentin(const TissueGrid& grid) {
 double pulp_below_dentin_mm(const TissueGrid& grid) {
   const auto layer = static_cast<std::size_t>(grid.size.x) * static_cast<std::size_t>(grid.size.y);
   const auto lowest = [&](std::uint8_t tissue) {
-    return static_cast<std::size_t>(std::find(grid.tissue.begin(), grid.tissue.end(), tissue) - grid.tissue.begin()) / layer;
+    return static_cast<std::size_t>(std::find(grid.tissue.begin(), grid.tissue.end(), tissue) -
+                                    grid.tissue.begin()) /
+           layer;
   };
-  return (static_cast<double>(lowest(k_dentin)) - static_cast<double>(lowest(k_pulp))) * grid.leaf_mm;
+  return (static_cast<double>(lowest(k_dentin)) - static_cast<double>(lowest(k_pulp))) *
+         grid.leaf_mm;
 }
 
 void require_pulp_in_root(double below_mm, const std::string& where) {
   constexpr double k_max_mm = 0.5;
   if (below_mm > k_max_mm)
-    throw Error(ImportError::layers_apart, Name{where}, msg("pulp and dentin do not fit: the pulp hangs {} out of the root", as_mm(below_mm, 1)),
-                msg("check that both surfaces are of one tooth and in one frame"));
+    throw Error(
+        ImportError::layers_apart, Name{where},
+        msg("pulp and dentin do not fit: the pulp hangs {} out of the root", as_mm(below_mm, 1)),
+        msg("check that both surfaces are of one tooth and in one frame"));
 }
 
-void require_layers_that_fit(const LayersApart& apart, const Overlaps& overlaps, const std::string& where) {
+void require_layers_that_fit(const LayersApart& apart, const Overlaps& overlaps,
+                             const std::string& where) {
   // thirteen human teeth: see docs/anatomy.md
-  constexpr double k_min_facing = 0.5, k_max_apart = 0.03, k_max_overlap = 0.1, k_pulp_in = 0.8, k_chamber = 0.3;
-  constexpr const char* k_what_to_do =
-      said("check that all surfaces are of one tooth and in one frame, and that enamel is the enamel alone, not the whole crown");
+  constexpr double k_min_facing = 0.5, k_max_apart = 0.03, k_max_overlap = 0.1, k_pulp_in = 0.8,
+                   k_chamber = 0.3;
+  constexpr const char* k_what_to_do = noop(
+      "check that all surfaces are of one tooth and in one frame, and that enamel is the enamel alone, not the whole crown");
   if (apart.facing < k_min_facing)
     throw Error(
         ImportError::layers_apart, Name{where},
-        msg("enamel and dentin do not fit: along {} of the ways through the enamel no dentin is met", as_percent(100 * (1 - apart.facing), 0)),
+        msg("enamel and dentin do not fit: along {} of the ways through the enamel no dentin is met",
+            as_percent(100 * (1 - apart.facing), 0)),
         msg(k_what_to_do));
   if (apart.share > k_max_apart)
-    throw Error(ImportError::layers_apart, Name{where},
-                msg("enamel and dentin do not fit: at {} of the places where they face each other there is a void between them, half of them {} wide "
-                    "or more along the lattice",
-                    as_percent(100 * apart.share, 0), as_mm(apart.usual_mm, 1)),
-                msg(k_what_to_do));
+    throw Error(
+        ImportError::layers_apart, Name{where},
+        msg("enamel and dentin do not fit: at {} of the places where they face each other there is a void between them, half of them {} wide "
+            "or more along the lattice",
+            as_percent(100 * apart.share, 0), as_mm(apart.usual_mm, 1)),
+        msg(k_what_to_do));
   if (overlaps.of_the_enamel > k_max_overlap)
     throw Error(ImportError::layers_apart, Name{where},
-                msg("enamel and dentin do not fit: {} of the enamel lie in the dentin, too", as_percent(100 * overlaps.of_the_enamel, 0)),
+                msg("enamel and dentin do not fit: {} of the enamel lie in the dentin, too",
+                    as_percent(100 * overlaps.of_the_enamel, 0)),
                 msg(k_what_to_do));
   const bool has_chamber = overlaps.chamber > k_chamber;
-  if (has_chamber ? overlaps.of_the_pulp > k_max_overlap : overlaps.of_the_pulp > k_max_overlap && overlaps.of_the_pulp < k_pulp_in)
+  if (has_chamber ? overlaps.of_the_pulp > k_max_overlap
+                  : overlaps.of_the_pulp > k_max_overlap && overlaps.of_the_pulp < k_pulp_in)
     throw Error(ImportError::layers_apart, Name{where},
-                msg("pulp and dentin do not fit: {} of the pulp lie in the dentin, {}", as_percent(100 * overlaps.of_the_pulp, 0),
-                    has_chamber ? msg("which has a chamber of its own for it") : msg("where all of it should, or none")),
+                msg("pulp and dentin do not fit: {} of the pulp lie in the dentin, {}",
+                    as_percent(100 * overlaps.of_the_pulp, 0),
+                    has_chamber ? msg("which has a chamber of its own for it")
+                                : msg("where all of it should, or none")),
                 msg("check that both surfaces are of one tooth and in one frame"));
 }
 
@@ -250,12 +277,16 @@ EnamelPieces enamel_pieces(const TissueGrid& grid) {
   constexpr double k_min_mm3 = 0.02;
   std::vector<Piece> pieces = pieces_of_enamel(grid).list;
   EnamelPieces found;
-  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.leaves > b.leaves; });
+  std::sort(pieces.begin(), pieces.end(),
+            [](const Piece& a, const Piece& b) { return a.leaves > b.leaves; });
   for (std::size_t i = 1; i < pieces.size(); ++i) {
-    const double mm3 = static_cast<double>(pieces[i].leaves) * grid.leaf_mm * grid.leaf_mm * grid.leaf_mm;
+    const double mm3 =
+        static_cast<double>(pieces[i].leaves) * grid.leaf_mm * grid.leaf_mm * grid.leaf_mm;
     if (mm3 < k_min_mm3) break;
     double& sum = pieces[i].on_dentin ? found.apart_mm3 : found.floating_mm3;
-    if (sum == 0) (pieces[i].on_dentin ? found.apart_mm : found.floating_mm) = pieces[i].sum / static_cast<double>(pieces[i].leaves);
+    if (sum == 0)
+      (pieces[i].on_dentin ? found.apart_mm : found.floating_mm) =
+          pieces[i].sum / static_cast<double>(pieces[i].leaves);
     sum += mm3;
   }
   return found;
@@ -264,8 +295,9 @@ EnamelPieces enamel_pieces(const TissueGrid& grid) {
 void require_no_floating_enamel(const EnamelPieces& pieces, const std::string& where) {
   if (pieces.floating_mm3 > 0)
     throw Error(ImportError::layers_apart, Name{where},
-                msg("{} of the enamel touch neither the crown nor any dentin, about ({} {} {}) mm", as_mm3(pieces.floating_mm3, 2),
-                    as_number(pieces.floating_mm.x, 1), as_number(pieces.floating_mm.y, 1), as_number(pieces.floating_mm.z, 1)),
+                msg("{} of the enamel touch neither the crown nor any dentin, about ({} {} {}) mm",
+                    as_mm3(pieces.floating_mm3, 2), as_number(pieces.floating_mm.x, 1),
+                    as_number(pieces.floating_mm.y, 1), as_number(pieces.floating_mm.z, 1)),
                 msg("take what is not of this tooth out of the mesh"));
 }
 

@@ -1,5 +1,6 @@
-// Where buccal and mesial are, by the shape of a crown and its roots: what tells a frame that is turned about the long axis, or a tooth of the other
-// side of the jaw. What shape cannot tell is absent. Signs, sources and how often they were right: docs/anatomy.md.
+// Where buccal and mesial are, by the shape of a crown and its roots: what tells a frame that is
+// turned about the long axis, or a tooth of the other side of the jaw. What shape cannot tell is
+// absent. Signs, sources and how often they were right: docs/anatomy.md.
 #pragma once
 
 #include <optional>
@@ -11,7 +12,8 @@
 
 namespace cavum {
 
-/// A direction in the plane across the long axis, degrees counter-clockwise from where the frame has it, -180 to 180.
+/// A direction in the plane across the long axis, degrees counter-clockwise from where the frame
+/// has it, -180 to 180.
 struct SeenTurn {
   double deg = 0.0;
   bool line = false;  ///< it may as well be the opposite one: -90 to 90
@@ -28,11 +30,14 @@ struct Orientation {
   /// +1 or -1 where at least three signs agree and none is against; else 0.
   [[nodiscard]] int mesial() const noexcept {
     constexpr int k_enough = 3;
-    return mesial_against == 0 && mesial_for >= k_enough ? 1 : mesial_for == 0 && mesial_against >= k_enough ? -1 : 0;
+    return mesial_against == 0 && mesial_for >= k_enough   ? 1
+           : mesial_for == 0 && mesial_against >= k_enough ? -1
+                                                           : 0;
   }
 };
 
 /// By the class that is said (`number`), else by that which is seen.
-[[nodiscard]] Orientation seen_orientation(const Landmarks& landmarks, const std::optional<ToothNumber>& number);
+[[nodiscard]] Orientation seen_orientation(const Landmarks& landmarks,
+                                           const std::optional<ToothNumber>& number);
 
 }  // namespace cavum

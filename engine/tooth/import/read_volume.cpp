@@ -41,7 +41,8 @@ class Reader {
     ::posix_spawn_file_actions_adddup2(&actions, ends[1], k_volume_descriptor);
     std::string name = "cavum-read-volume", file = path;
     std::array<char*, 3> arguments{name.data(), file.data(), nullptr};
-    const int failed = ::posix_spawn(&process_, program.c_str(), &actions, nullptr, arguments.data(), environ);
+    const int failed =
+        ::posix_spawn(&process_, program.c_str(), &actions, nullptr, arguments.data(), environ);
     ::posix_spawn_file_actions_destroy(&actions);
     ::close(ends[1]);
     if (failed != 0) {
@@ -61,7 +62,8 @@ class Reader {
   Reader& operator=(const Reader&) = delete;
 
   [[nodiscard]] int from() const noexcept { return from_; }
-  /// How it ended; to be asked when nothing more is to come. One that sent all and then broke did its work.
+  /// How it ended; to be asked when nothing more is to come. One that sent all and then broke did
+  /// its work.
   [[nodiscard]] Message end() {
     const int status = wait();
     process_ = 0;
@@ -73,7 +75,8 @@ class Reader {
 
  private:
   [[noreturn]] static void fail(const std::string& program, int reason) {
-    throw Error(program, msg("cannot be started ({})", system_words(reason)), msg("install Cavum again"));
+    throw Error(program, msg("cannot be started ({})", system_words(reason)),
+                msg("install Cavum again"));
   }
   int wait() const {
     int status = 0;
@@ -89,7 +92,8 @@ class Reader {
 Volume read_elsewhere(const std::string& path) {
   Reader reader(path);
   try {
-    return receive_volume(reader.from(), path, most_voxels(~std::uint64_t{0} / 4), k_longest_read_s);
+    return receive_volume(reader.from(), path, most_voxels(~std::uint64_t{0} / 4),
+                          k_longest_read_s);
   } catch (const VolumeCutOff&) {
     throw Error(path, msg("cannot be read as a volume: the program that reads it {}", reader.end()),
                 msg("give an intact MetaImage, NRRD, NIfTI, TIFF or DICOM series"));
@@ -106,22 +110,30 @@ std::string read_volume_program() {
     program = (program_folder() / "cavum-read-volume").string();
   }
   if (::access(program.c_str(), X_OK) != 0)
-    throw Error(FileError::missing, Name{program}, msg("is not there, and volumes are read by it"), msg("install it beside cavum"));
+    throw Error(FileError::missing, Name{program}, msg("is not there, and volumes are read by it"),
+                msg("install it beside cavum"));
   return program;
 }
 
 Volume read_volume(const std::string& path, const std::optional<Vec3>& spacing_mm) {
   Volume v = read_elsewhere(path);
   if (v.size.x < 4 || v.size.y < 4 || v.size.z < 4)
-    throw Error(FileError::malformed, Name{path}, msg("not a volume: fewer than 4 voxels along an axis"), msg("give all slices of the volume"));
+    throw Error(FileError::malformed, Name{path},
+                msg("not a volume: fewer than 4 voxels along an axis"),
+                msg("give all slices of the volume"));
   for (std::size_t i = 0; i < v.gray.size(); ++i)
-    if (!std::isfinite(v.gray[i])) throw Error(FileError::malformed, Name{path}, msg("voxel {} is not a number", i), msg("export the volume again"));
+    if (!std::isfinite(v.gray[i]))
+      throw Error(FileError::malformed, Name{path}, msg("voxel {} is not a number", i),
+                  msg("export the volume again"));
 
   const auto& s = v.spacing_mm;
-  const bool told = s[0] > 0 && s[1] > 0 && s[2] > 0 && std::isfinite(s[0] + s[1] + s[2]) && !(s[0] == 1 && s[1] == 1 && s[2] == 1);
+  const bool told = s[0] > 0 && s[1] > 0 && s[2] > 0 && std::isfinite(s[0] + s[1] + s[2]) &&
+                    !(s[0] == 1 && s[1] == 1 && s[2] == 1);
   if (spacing_mm) {
     for (const double d : {spacing_mm->x, spacing_mm->y, spacing_mm->z})
-      if (!(d > 0 && d < 100)) throw Error("--spacing-mm", msg("must lie between 0 and 100 mm"), msg("give the edge of a voxel, such as 0.125"));
+      if (!(d > 0 && d < 100))
+        throw Error("--spacing-mm", msg("must lie between 0 and 100 mm"),
+                    msg("give the edge of a voxel, such as 0.125"));
     v.spacing_mm = {spacing_mm->x, spacing_mm->y, spacing_mm->z};
   } else if (!told) {
     v.spacing_mm = {k_assumed_spacing_mm, k_assumed_spacing_mm, k_assumed_spacing_mm};

@@ -1,5 +1,6 @@
-// A tooth with a seed as a shape: crown with fissures, curved cervical line, roots, enamel that follows the crown, pulp with horns and canals. Built
-// from a plan (tooth_plan.h) by formulae with + - * / and sqrt, so that the same plan gives the same bytes everywhere.
+// A tooth with a seed as a shape: crown with fissures, curved cervical line, roots, enamel that
+// follows the crown, pulp with horns and canals. Built from a plan (tooth_plan.h) by formulae with
+// + - * / and sqrt, so that the same plan gives the same bytes everywhere.
 #pragma once
 
 #include "engine/tooth/make/formula_tooth.h"
@@ -8,10 +9,12 @@
 
 namespace cavum {
 
-/// As `FormulaTooth` asks: each function is negative inside its body and about a distance near its surface. Points in the tooth frame, mm.
+/// As `FormulaTooth` asks: each function is negative inside its body and about a distance near its
+/// surface. Points in the tooth frame, mm.
 class GrownTooth {
  public:
-  static constexpr bool k_join = true;  // leaves cut off by the lattice (a sliver of enamel at the neck) go to the tissue around them
+  static constexpr bool k_join = true;  // leaves cut off by the lattice (a sliver of enamel at the
+                                        // neck) go to the tissue around them
   explicit GrownTooth(ToothPlan plan);
   [[nodiscard]] double outside(Vec3 p) const noexcept;
   [[nodiscard]] double pulp(Vec3 p) const noexcept;
@@ -44,7 +47,9 @@ class GrownTooth {
   double highest_tip_ = 0.0, lowest_tip_ = 1e9;  // of the cusps, in the plan's frame
 };
 
-/// The tooth of a plan. Throws Error on a leaf outside 0.03..0.5 mm or a periodontium outside 0..5 mm.
-[[nodiscard]] Tooth grow_tooth(const GrownTooth& shape, double leaf_mm, double periodontium_mm, const std::string& name, const FormulaKind& what);
+/// The tooth of a plan. Throws Error on a leaf outside 0.03..0.5 mm or a periodontium outside 0..5
+/// mm.
+[[nodiscard]] Tooth grow_tooth(const GrownTooth& shape, double leaf_mm, double periodontium_mm,
+                               const std::string& name, const FormulaKind& what);
 
 }  // namespace cavum

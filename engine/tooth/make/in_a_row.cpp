@@ -46,14 +46,18 @@ std::optional<RowVerdict> by_numbers(const RowTooth& tooth, const RowTooth& besi
   const auto &n = tooth.kind.number, &other = beside.kind.number;
   if (!n || !other) return std::nullopt;
   if (side > 0 && n->place() == 1)
-    return RowVerdict{msg("mesial of tooth {} stands {}, and they meet with their mesial surfaces: here the neighbour's distal one would meet it",
-                          n->fdi, n->other_side().fdi),
-                      {}};
-  if (side < 0 && n->place() == k_last_place) return RowVerdict{msg("no tooth stands distal of tooth {}", n->fdi), {}};
+    return RowVerdict{
+        msg("mesial of tooth {} stands {}, and they meet with their mesial surfaces: here the neighbour's distal one would meet it",
+            n->fdi, n->other_side().fdi),
+        {}};
+  if (side < 0 && n->place() == k_last_place)
+    return RowVerdict{msg("no tooth stands distal of tooth {}", n->fdi), {}};
   const int wanted = n->fdi - side;
   if (other->fdi == wanted) return RowVerdict{};
-  return RowVerdict{side > 0 ? msg("mesial of tooth {} stands tooth {}, and this is tooth {}", n->fdi, wanted, other->fdi)
-                             : msg("distal of tooth {} stands tooth {}, and this is tooth {}", n->fdi, wanted, other->fdi),
+  return RowVerdict{side > 0 ? msg("mesial of tooth {} stands tooth {}, and this is tooth {}",
+                                   n->fdi, wanted, other->fdi)
+                             : msg("distal of tooth {} stands tooth {}, and this is tooth {}",
+                                   n->fdi, wanted, other->fdi),
                     {}};
 }
 
@@ -63,20 +67,33 @@ RowVerdict stand_in_a_row(const RowTooth& tooth, const RowTooth& beside, int sid
   if (const auto verdict = by_numbers(tooth, beside, side)) return *verdict;
   const Jaw jaw = tooth.kind.jaw, other_jaw = beside.kind.jaw;
   if (jaw != Jaw::unknown && other_jaw != Jaw::unknown && jaw != other_jaw)
-    return {jaw == Jaw::upper ? msg("'{}' is an upper tooth and '{}' a lower one", tooth.name, beside.name)
-                              : msg("'{}' is a lower tooth and '{}' an upper one", tooth.name, beside.name),
+    return {jaw == Jaw::upper
+                ? msg("'{}' is an upper tooth and '{}' a lower one", tooth.name, beside.name)
+                : msg("'{}' is a lower tooth and '{}' an upper one", tooth.name, beside.name),
             {}};
   const Places own = places_of(tooth), other = places_of(beside);
   if (own.first == 0)
-    return {{}, msg("whether '{}' may stand beside '{}' could not be checked: the tooth's class is not told", beside.name, tooth.name)};
-  if (other.first == 0) return {{}, msg("whether '{}' may stand beside '{}' could not be checked: its class is not told", beside.name, tooth.name)};
+    return {
+        {},
+        msg("whether '{}' may stand beside '{}' could not be checked: the tooth's class is not told",
+            beside.name, tooth.name)};
+  if (other.first == 0)
+    return {{},
+            msg("whether '{}' may stand beside '{}' could not be checked: its class is not told",
+                beside.name, tooth.name)};
   if (std::max(own.first - side, other.first) > std::min(own.last - side, other.last))
-    return {side > 0 ? msg("no tooth like {} stands mesial of {}", words_for(beside), words_for(tooth))
-                     : msg("no tooth like {} stands distal of {}", words_for(beside), words_for(tooth)),
+    return {side > 0
+                ? msg("no tooth like {} stands mesial of {}", words_for(beside), words_for(tooth))
+                : msg("no tooth like {} stands distal of {}", words_for(beside), words_for(tooth)),
             {}};
-  const auto made = [](const RowTooth& t) { return t.kind.tooth_class != ToothClass::unknown && !t.kind.number; };  // by us: without a number
+  const auto made = [](const RowTooth& t) {
+    return t.kind.tooth_class != ToothClass::unknown && !t.kind.number;
+  };  // by us: without a number
   if (made(tooth) && made(beside)) return {};
-  return {{}, msg("whether '{}' is the very neighbour of '{}' was not checked: their numbers were not both said", beside.name, tooth.name)};
+  return {
+      {},
+      msg("whether '{}' is the very neighbour of '{}' was not checked: their numbers were not both said",
+          beside.name, tooth.name)};
 }
 
 }  // namespace cavum

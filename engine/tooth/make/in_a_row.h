@@ -1,4 +1,5 @@
-// Whether two teeth are neighbours in a jaw: by their numbers where both were said, else by jaw and class.
+// Whether two teeth are neighbours in a jaw: by their numbers where both were said, else by jaw and
+// class.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
-// The measures of one individual: each is drawn from a normal distribution with a published mean and standard deviation, cut off at a range that
-// lies inside the published one. All lean on one size factor, for large teeth are large in everything; so a tooth keeps its proportions.
+// The measures of one individual: each is drawn from a normal distribution with a published mean
+// and standard deviation, cut off at a range that lies inside the published one. All lean on one
+// size factor, for large teeth are large in everything; so a tooth keeps its proportions.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +9,14 @@
 
 namespace cavum {
 
-/// A published measure, mm or degrees: mean, standard deviation, and the range that is drawn from (low < mean < high, sd > 0).
+/// A published measure, mm or degrees: mean, standard deviation, and the range that is drawn from
+/// (low < mean < high, sd > 0).
 struct Published {
   double mean, sd, low, high;
 };
 
-/// One individual of a kind. The same seed gives the same measures, in the order they are asked for.
+/// One individual of a kind. The same seed gives the same measures, in the order they are asked
+/// for.
 class Individual {
  public:
   /// `kind` keeps molar 7 from being drawn like premolar 7.

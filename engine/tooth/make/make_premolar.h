@@ -1,7 +1,8 @@
-// An upper second premolar of our own, made from formulae: two cusps with a fissure between them, one root, a pulp chamber that is wide from
-// buccal to lingual and narrow from mesial to distal, with two horns, and one oval canal.
-// Measures: means of the permanent upper second premolar as dental anatomy teaches them (crown 8.5 mm high, 7 mm mesiodistally, 9 mm
-// buccolingually; at the neck 5 and 8 mm; root 14 mm).
+// An upper second premolar of our own, made from formulae: two cusps with a fissure between them,
+// one root, a pulp chamber that is wide from buccal to lingual and narrow from mesial to distal,
+// with two horns, and one oval canal. Measures: means of the permanent upper second premolar as
+// dental anatomy teaches them (crown 8.5 mm high, 7 mm mesiodistally, 9 mm buccolingually; at the
+// neck 5 and 8 mm; root 14 mm).
 #pragma once
 
 #include "engine/base/vec.h"

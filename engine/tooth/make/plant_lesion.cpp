@@ -10,10 +10,14 @@ namespace cavum {
 Tooth plant_lesion(Tooth tooth, const LesionShape& lesion) {
   const std::string where = "--lesion";
   const Vec3 r = lesion.radii_mm, c = lesion.centre_mm;
-  if (!(r.x > 0 && r.y > 0 && r.z > 0)) throw Error(where, msg("a radius is not larger than 0 mm"), msg("give centre and radii: x,y,z,rx,ry,rz"));
+  if (!(r.x > 0 && r.y > 0 && r.z > 0))
+    throw Error(where, msg("a radius is not larger than 0 mm"),
+                msg("give centre and radii: x,y,z,rx,ry,rz"));
   std::uint8_t id = 0;
   for (const auto& t : tooth.tissues) {
-    if (t.name == "lesion") throw Error(where, msg("the tooth has a lesion already"), msg("grow it into the tooth as it was before"));
+    if (t.name == "lesion")
+      throw Error(where, msg("the tooth has a lesion already"),
+                  msg("grow it into the tooth as it was before"));
     id = std::max(id, t.id);
   }
   if (id == 255) throw Error(where, msg("the tooth has 255 tissues"), msg("use fewer"));
@@ -29,15 +33,19 @@ Tooth plant_lesion(Tooth tooth, const LesionShape& lesion) {
         if (tissue != k_dentin || dot(u, u) >= 1.0) continue;
         tissue = id;
         ++turned;
-        for (const IVec3 step : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}, IVec3{0, 0, 1}, IVec3{0, 0, -1}}) {
+        for (const IVec3 step : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0},
+                                 IVec3{0, 0, 1}, IVec3{0, 0, -1}}) {
           const IVec3 n = IVec3{x, y, z} + step;
-          const std::uint8_t beside = grid.inside(n) ? grid.tissue[grid.index(n)] : std::uint8_t{k_air};
+          const std::uint8_t beside =
+              grid.inside(n) ? grid.tissue[grid.index(n)] : std::uint8_t{k_air};
           if (beside != id && !tooth.octree.is_solid(beside))
             throw Error(where, msg("the lesion would open into {}", tooth.tissue_name(beside)),
                         msg("move it deeper into the dentin, or make it smaller"));
         }
       }
-  if (turned == 0) throw Error(where, msg("no dentin lies there"), msg("move it, in the tooth frame: see `cavum tooth info` for the bounds"));
+  if (turned == 0)
+    throw Error(where, msg("no dentin lies there"),
+                msg("move it, in the tooth frame: see `cavum tooth info` for the bounds"));
   tooth.tissues.push_back({id, "lesion", true});
   tooth.octree = Octree(grid, tooth.tissues);
   tooth.name += ", hidden lesion";

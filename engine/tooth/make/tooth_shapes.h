@@ -1,5 +1,6 @@
-// Shapes that teeth of our own are made from: smooth unions, profiles, tubes, round cones. Lengths in mm; a body's function is negative
-// inside and about a distance near its surface. Only + - * / and sqrt: the same bytes everywhere.
+// Shapes that teeth of our own are made from: smooth unions, profiles, tubes, round cones. Lengths
+// in mm; a body's function is negative inside and about a distance near its surface. Only + - * /
+// and sqrt: the same bytes everywhere.
 #pragma once
 
 #include <algorithm>
@@ -10,12 +11,15 @@
 
 namespace cavum {
 
-/// Smooth maximum (intersection) and minimum (union): rounds the meeting of two surfaces over about k mm.
+/// Smooth maximum (intersection) and minimum (union): rounds the meeting of two surfaces over about
+/// k mm.
 [[nodiscard]] inline double smooth_max(double a, double b, double k) {
   const double h = std::max(k - std::fabs(a - b), 0.0) / k;
   return std::max(a, b) + h * h * k * 0.25;
 }
-[[nodiscard]] inline double smooth_min(double a, double b, double k) { return -smooth_max(-a, -b, k); }
+[[nodiscard]] inline double smooth_min(double a, double b, double k) {
+  return -smooth_max(-a, -b, k);
+}
 
 /// 0 below `low`, 1 above `high`, smooth between.
 [[nodiscard]] inline double ramp(double low, double high, double v) {
@@ -29,7 +33,8 @@ namespace cavum {
   return q * q;
 }
 
-/// Smooth curve through (z, value) knots, z rising (Hermite, tangents from the neighbours); constant beyond.
+/// Smooth curve through (z, value) knots, z rising (Hermite, tangents from the neighbours);
+/// constant beyond.
 struct Knot {
   double z, value;
 };
@@ -43,10 +48,12 @@ struct Knot {
     return (k[j + 1].value - k[j - 1].value) / (k[j + 1].z - k[j - 1].z);
   };
   const double h = k[i + 1].z - k[i].z, t = (z - k[i].z) / h, t2 = t * t, t3 = t2 * t;
-  return k[i].value * (2 * t3 - 3 * t2 + 1) + slope(i) * h * (t3 - 2 * t2 + t) + k[i + 1].value * (3 * t2 - 2 * t3) + slope(i + 1) * h * (t3 - t2);
+  return k[i].value * (2 * t3 - 3 * t2 + 1) + slope(i) * h * (t3 - 2 * t2 + t) +
+         k[i + 1].value * (3 * t2 - 2 * t3) + slope(i + 1) * h * (t3 - t2);
 }
 
-/// About the distance to an upright tube whose cross-section lies between an ellipse and a rounded rectangle.
+/// About the distance to an upright tube whose cross-section lies between an ellipse and a rounded
+/// rectangle.
 [[nodiscard]] inline double tube(double x, double y, double half_x, double half_y) {
   const double u = x / half_x, v = y / half_y, u2 = u * u, v2 = v * v;
   const double q = 0.5 * std::sqrt(u2 + v2) + 0.5 * std::sqrt(std::sqrt(u2 * u2 + v2 * v2));
@@ -67,15 +74,18 @@ struct Knot {
   return (std::sqrt(x2 * a2 * il2) + y * rr) * il2 - ra;
 }
 
-[[nodiscard]] inline double segment_distance(double x, double y, double ax, double ay, double bx, double by) {
+[[nodiscard]] inline double segment_distance(double x, double y, double ax, double ay, double bx,
+                                             double by) {
   const double dx = bx - ax, dy = by - ay;
   const double t = std::clamp(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
   const double ex = x - ax - t * dx, ey = y - ay - t * dy;
   return std::sqrt(ex * ex + ey * ey);
 }
 
-/// A root: an elliptic paraboloid about an upright axis (bent when `axis_x` depends on z), so that its end is round. First-order distance.
-[[nodiscard]] inline double paraboloid(Vec3 p, double axis_x, double half_x, double half_y, double apex_z, double top_z) {
+/// A root: an elliptic paraboloid about an upright axis (bent when `axis_x` depends on z), so that
+/// its end is round. First-order distance.
+[[nodiscard]] inline double paraboloid(Vec3 p, double axis_x, double half_x, double half_y,
+                                       double apex_z, double top_z) {
   const double u = (p.x - axis_x) / half_x, v = p.y / half_y, high = top_z - apex_z;
   const double gx = 2 * u / half_x, gy = 2 * v / half_y, gz = 1 / high;
   return (u * u + v * v - (p.z - apex_z) / high) / std::sqrt(gx * gx + gy * gy + gz * gz);

@@ -18,7 +18,9 @@ namespace {
 
 constexpr std::string_view k_blank = " \t\v\f";
 
-std::string_view view_of(const Bytes& file) { return {reinterpret_cast<const char*>(file.data()), file.size()}; }
+std::string_view view_of(const Bytes& file) {
+  return {reinterpret_cast<const char*>(file.data()), file.size()};
+}
 
 [[noreturn]] void fail(FileError code, Message where, const Message& what) {
   throw Error(code, std::move(where), what, msg("copy or export the whole file again"));
@@ -45,17 +47,22 @@ std::optional<Number> number_in(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   Number value{};
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size() && !word.empty() ? std::optional(value) : std::nullopt;
+  return error == std::errc() && end == word.data() + word.size() && !word.empty()
+             ? std::optional(value)
+             : std::nullopt;
 }
 
 double coordinate(std::string_view word, const std::string& where) {
   const auto value = number_in<double>(word);
-  if (!value) fail(FileError::malformed, Name{where}, msg("'{}' is no coordinate", one_line(std::string(word.substr(0, 40)))));
+  if (!value)
+    fail(FileError::malformed, Name{where},
+         msg("'{}' is no coordinate", one_line(std::string(word.substr(0, 40)))));
   return *value;
 }
 
 void add_polygon(Polygons& out, std::vector<std::uint32_t> corners, const std::string& where) {
-  if (corners.size() < 3) fail(FileError::malformed, Name{where}, msg("has a face of fewer than three corners"));
+  if (corners.size() < 3)
+    fail(FileError::malformed, Name{where}, msg("has a face of fewer than three corners"));
   out.polygons.push_back(std::move(corners));
 }
 
@@ -64,7 +71,8 @@ void require_corners(const Polygons& p, const std::string& name) {
   for (std::size_t i = 0; i < p.polygons.size(); ++i)
     for (const auto corner : p.polygons[i])
       if (corner >= p.corners_mm.size())
-        fail(FileError::inconsistent, Name{name}, msg("face {} names a corner that is not there ({} are)", i + 1, p.corners_mm.size()));
+        fail(FileError::inconsistent, Name{name},
+             msg("face {} names a corner that is not there ({} are)", i + 1, p.corners_mm.size()));
 }
 
 // --- PLY
@@ -100,13 +108,15 @@ PlyType ply_type(std::string_view word, const std::string& where) {
                                                  {"double", "float64", {8, true, true}}}};
   for (const auto& k : k_known)
     if (word == k.old_name || word == k.new_name) return k.type;
-  fail(FileError::malformed, Name{where}, msg("'{}' is no type of a PLY property", one_line(std::string(word.substr(0, 40)))));
+  fail(FileError::malformed, Name{where},
+       msg("'{}' is no type of a PLY property", one_line(std::string(word.substr(0, 40)))));
 }
 
 /// The values behind a PLY's head, one after the other.
 class PlyValues {
  public:
-  PlyValues(std::string_view rest, PlyFormat format, const std::string& name) : rest_(rest), format_(format), name_(name) {}
+  PlyValues(std::string_view rest, PlyFormat format, const std::string& name)
+      : rest_(rest), format_(format), name_(name) {}
 
   double next(const PlyType& type) {
     if (format_ == PlyFormat::text) {
@@ -117,17 +127,23 @@ class PlyValues {
     if (rest_.size() < type.bytes) fail(FileError::truncated, Name{name_}, msg("is cut off"));
     std::array<std::uint8_t, 8> raw{};
     std::copy_n(rest_.begin(), type.bytes, raw.begin());
-    if (format_ == PlyFormat::big) std::reverse(raw.begin(), raw.begin() + static_cast<std::ptrdiff_t>(type.bytes));
+    if (format_ == PlyFormat::big)
+      std::reverse(raw.begin(), raw.begin() + static_cast<std::ptrdiff_t>(type.bytes));
     rest_.remove_prefix(type.bytes);
     const auto bits = std::bit_cast<std::uint64_t>(raw);
-    if (type.real) return type.bytes == 8 ? std::bit_cast<double>(bits) : static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+    if (type.real)
+      return type.bytes == 8
+                 ? std::bit_cast<double>(bits)
+                 : static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
     const auto shift = static_cast<int>(64 - 8 * type.bytes);
-    return type.negative ? static_cast<double>(static_cast<std::int64_t>(bits << shift) >> shift) : static_cast<double>(bits);
+    return type.negative ? static_cast<double>(static_cast<std::int64_t>(bits << shift) >> shift)
+                         : static_cast<double>(bits);
   }
   /// A number of things or of a corner.
   std::uint32_t next_whole(const PlyType& type) {
     const double value = next(type);
-    if (!(value >= 0 && value < 4294967295.0) || value != static_cast<double>(static_cast<std::uint32_t>(value)))
+    if (!(value >= 0 && value < 4294967295.0) ||
+        value != static_cast<double>(static_cast<std::uint32_t>(value)))
       fail(FileError::malformed, Name{name_}, msg("has a list or a face whose numbers are none"));
     return static_cast<std::uint32_t>(value);
   }
@@ -139,10 +155,12 @@ class PlyValues {
 };
 
 /// The elements that the head promises; takes the head off `rest`.
-std::vector<PlyElement> read_ply_head(std::string_view& rest, PlyFormat& format, const std::string& name) {
+std::vector<PlyElement> read_ply_head(std::string_view& rest, PlyFormat& format,
+                                      const std::string& name) {
   std::vector<PlyElement> elements;
   bool formatted = false;
-  if (next_line(rest) != "ply") fail(FileError::malformed, Name{name}, msg("is no PLY: it does not begin with 'ply'"));
+  if (next_line(rest) != "ply")
+    fail(FileError::malformed, Name{name}, msg("is no PLY: it does not begin with 'ply'"));
   for (int number = 2;; ++number) {
     if (rest.empty()) fail(FileError::truncated, Name{name}, msg("is cut off within its head"));
     std::string_view line = next_line(rest);
@@ -153,14 +171,18 @@ std::vector<PlyElement> read_ply_head(std::string_view& rest, PlyFormat& format,
     if (word == "format") {
       const auto kind = next_word(line);
       formatted = kind == "ascii" || kind == "binary_little_endian" || kind == "binary_big_endian";
-      format = kind == "ascii" ? PlyFormat::text : kind == "binary_little_endian" ? PlyFormat::little : PlyFormat::big;
+      format = kind == "ascii"                  ? PlyFormat::text
+               : kind == "binary_little_endian" ? PlyFormat::little
+                                                : PlyFormat::big;
     } else if (word == "element") {
       const auto element = next_word(line);
       const auto count = number_in<std::uint64_t>(next_word(line));
-      if (element.empty() || !count) fail(FileError::malformed, Name{where}, msg("has an element without a name or a number"));
+      if (element.empty() || !count)
+        fail(FileError::malformed, Name{where}, msg("has an element without a name or a number"));
       elements.push_back({std::string(element), *count, {}});
     } else if (word == "property") {
-      if (elements.empty()) fail(FileError::inconsistent, Name{where}, msg("has a property of no element"));
+      if (elements.empty())
+        fail(FileError::inconsistent, Name{where}, msg("has a property of no element"));
       PlyProperty p;
       auto type = next_word(line);
       if (type == "list") {
@@ -171,13 +193,17 @@ std::vector<PlyElement> read_ply_head(std::string_view& rest, PlyFormat& format,
       p.name = next_word(line);
       elements.back().properties.push_back(std::move(p));
     } else {
-      fail(FileError::malformed, Name{where}, msg("'{}' means nothing in a PLY's head", one_line(std::string(word.substr(0, 40)))));
+      fail(FileError::malformed, Name{where},
+           msg("'{}' means nothing in a PLY's head", one_line(std::string(word.substr(0, 40)))));
     }
   }
-  if (!formatted) fail(FileError::malformed, Name{name}, msg("does not say whether it is ascii, binary_little_endian or binary_big_endian"));
+  if (!formatted)
+    fail(FileError::malformed, Name{name},
+         msg("does not say whether it is ascii, binary_little_endian or binary_big_endian"));
   for (const auto& e : elements)
     if (e.properties.empty() && e.count > 0)
-      fail(FileError::inconsistent, Name{name}, msg("promises {} of '{}' without a property", e.count, one_line(e.name)));
+      fail(FileError::inconsistent, Name{name},
+           msg("promises {} of '{}' without a property", e.count, one_line(e.name)));
   return elements;
 }
 
@@ -208,10 +234,12 @@ Polygons read_ply(const Bytes& file, const std::string& name) {
           continue;
         }
         const double value = values.next(p.type);
-        if (p.name.size() == 1 && p.name[0] >= 'x' && p.name[0] <= 'z') at[static_cast<std::size_t>(p.name[0] - 'x')] = value;
+        if (p.name.size() == 1 && p.name[0] >= 'x' && p.name[0] <= 'z')
+          at[static_cast<std::size_t>(p.name[0] - 'x')] = value;
       }
       if (!corner) continue;
-      if (!at[0] || !at[1] || !at[2]) fail(FileError::inconsistent, Name{name}, msg("has corners without x, y or z"));
+      if (!at[0] || !at[1] || !at[2])
+        fail(FileError::inconsistent, Name{name}, msg("has corners without x, y or z"));
       out.corners_mm.push_back({*at[0], *at[1], *at[2]});
     }
   }
@@ -239,11 +267,14 @@ Polygons read_obj(const Bytes& file, const std::string& name) {
       out.corners_mm.push_back(p);
     } else if (word == "f") {
       std::vector<std::uint32_t> corners;
-      for (auto corner = next_word(line); !corner.empty() && corner[0] != '#'; corner = next_word(line)) {
+      for (auto corner = next_word(line); !corner.empty() && corner[0] != '#';
+           corner = next_word(line)) {
         const auto n = number_in<std::int32_t>(corner.substr(0, corner.find('/')));
         const auto known = static_cast<std::int64_t>(out.corners_mm.size());
         const std::int64_t index = !n || *n == 0 ? -1 : *n > 0 ? *n - std::int64_t{1} : known + *n;
-        if (index < 0) fail(FileError::malformed, Name{where}, msg("'{}' is no corner", one_line(std::string(corner.substr(0, 40)))));
+        if (index < 0)
+          fail(FileError::malformed, Name{where},
+               msg("'{}' is no corner", one_line(std::string(corner.substr(0, 40)))));
         corners.push_back(static_cast<std::uint32_t>(index));
       }
       add_polygon(out, std::move(corners), where);
@@ -267,13 +298,17 @@ Polygons read_off(const Bytes& file, const std::string& name) {
   };
   std::string_view line = line_with_words();
   std::string_view kind = next_word(line);
-  if (!kind.ends_with("OFF")) fail(FileError::malformed, Name{name}, msg("is no OFF: it does not begin with OFF"));
+  if (!kind.ends_with("OFF"))
+    fail(FileError::malformed, Name{name}, msg("is no OFF: it does not begin with OFF"));
   kind.remove_suffix(3);
   if (kind.find_first_not_of("STCN") != std::string_view::npos || !next_word(line).empty())
-    fail(FileError::unsupported, Name{name}, msg("is an OFF of another kind than text in three dimensions"));
+    fail(FileError::unsupported, Name{name},
+         msg("is an OFF of another kind than text in three dimensions"));
   line = line_with_words();
-  const auto corners = number_in<std::uint64_t>(next_word(line)), faces = number_in<std::uint64_t>(next_word(line));
-  if (!corners || !faces) fail(FileError::malformed, Name{name}, msg("does not say how many corners and faces it holds"));
+  const auto corners = number_in<std::uint64_t>(next_word(line)),
+             faces = number_in<std::uint64_t>(next_word(line));
+  if (!corners || !faces)
+    fail(FileError::malformed, Name{name}, msg("does not say how many corners and faces it holds"));
   Polygons out;
   const auto where = [&] { return fmt::format("{}:{}", name, number); };
   for (std::uint64_t i = 0; i < *corners; ++i) {
@@ -285,11 +320,13 @@ Polygons read_off(const Bytes& file, const std::string& name) {
   for (std::uint64_t i = 0; i < *faces; ++i) {
     line = line_with_words();
     const auto n = number_in<std::uint32_t>(next_word(line));
-    if (!n) fail(FileError::malformed, Name{where()}, msg("has a face without its number of corners"));
+    if (!n)
+      fail(FileError::malformed, Name{where()}, msg("has a face without its number of corners"));
     std::vector<std::uint32_t> list;
     for (std::uint32_t k = 0; k < *n; ++k) {
       const auto corner = number_in<std::uint32_t>(next_word(line));
-      if (!corner) fail(FileError::malformed, Name{where()}, msg("has a face whose corners are no numbers"));
+      if (!corner)
+        fail(FileError::malformed, Name{where()}, msg("has a face whose corners are no numbers"));
       list.push_back(*corner);
     }
     add_polygon(out, std::move(list), where());

@@ -17,9 +17,10 @@ namespace {
 
 constexpr std::size_t k_preamble = 128;
 constexpr std::uint32_t k_undefined = 0xffffffff;
-constexpr std::uint32_t k_item = 0xfffee000, k_item_end = 0xfffee00d, k_sequence_end = 0xfffee0dd, k_picture = 0x7fe00010;
-constexpr std::uint32_t k_transfer_syntax = 0x00020010, k_frames = 0x00280008, k_rows = 0x00280010, k_columns = 0x00280011, k_samples = 0x00280002,
-                        k_bits = 0x00280100;
+constexpr std::uint32_t k_item = 0xfffee000, k_item_end = 0xfffee00d, k_sequence_end = 0xfffee0dd,
+                        k_picture = 0x7fe00010;
+constexpr std::uint32_t k_transfer_syntax = 0x00020010, k_frames = 0x00280008, k_rows = 0x00280010,
+                        k_columns = 0x00280011, k_samples = 0x00280002, k_bits = 0x00280100;
 constexpr int k_deepest = 16;
 
 struct Field {
@@ -44,24 +45,28 @@ struct Element {
 
 class Walk {
  public:
-  Walk(std::span<const std::uint8_t> file, std::string where) : file_(file), where_(std::move(where)) {}
+  Walk(std::span<const std::uint8_t> file, std::string where)
+      : file_(file), where_(std::move(where)) {}
 
   DicomSlice run() {
     std::string syntax;
     if (says_dicom(file_)) {
       at_ = k_preamble + 4;
-      while (at_ + 2 <= file_.size() && (file_[at_] | file_[at_ + 1] << 8) == 2) {  // always explicit, little-endian
+      while (at_ + 2 <= file_.size() &&
+             (file_[at_] | file_[at_ + 1] << 8) == 2) {  // always explicit, little-endian
         const Element e = element();
         const auto value = take(e.length);
         if (e.tag == k_transfer_syntax) syntax = text_of(value);
       }
     } else {
-      explicit_ = file_.size() > 6 && file_[4] >= 'A' && file_[4] <= 'Z' && file_[5] >= 'A' && file_[5] <= 'Z';
+      explicit_ = file_.size() > 6 && file_[4] >= 'A' && file_[4] <= 'Z' && file_[5] >= 'A' &&
+                  file_[5] <= 'Z';
     }
     if (syntax == "1.2.840.10008.1.2") explicit_ = false;
     if (syntax == "1.2.840.10008.1.2.2") big_ = true;
     if (syntax == "1.2.840.10008.1.2.1.99")
-      throw Error(FileError::unsupported, Name{where_}, msg("is deflated DICOM"), msg("export it uncompressed: whether it is whole cannot be seen"));
+      throw Error(FileError::unsupported, Name{where_}, msg("is deflated DICOM"),
+                  msg("export it uncompressed: whether it is whole cannot be seen"));
     for (;;) {
       if (at_ >= file_.size()) fail(FileError::truncated, msg("holds no picture"));
       const Element e = element();
@@ -80,7 +85,8 @@ class Walk {
 
   std::span<const std::uint8_t> take(std::uint64_t n) {
     if (n > file_.size() - at_)
-      fail(FileError::truncated, msg("truncated: an element at byte {} has {} bytes, {} are there", at_, n, file_.size() - at_));
+      fail(FileError::truncated, msg("truncated: an element at byte {} has {} bytes, {} are there",
+                                     at_, n, file_.size() - at_));
     const auto value = file_.subspan(at_, static_cast<std::size_t>(n));
     at_ += static_cast<std::size_t>(n);
     return value;
@@ -88,7 +94,8 @@ class Walk {
   std::uint32_t number(std::size_t bytes) {
     const auto v = take(bytes);
     std::uint32_t n = 0;
-    for (std::size_t i = 0; i < bytes; ++i) n |= static_cast<std::uint32_t>(v[big_ ? bytes - 1 - i : i]) << (8 * i);
+    for (std::size_t i = 0; i < bytes; ++i)
+      n |= static_cast<std::uint32_t>(v[big_ ? bytes - 1 - i : i]) << (8 * i);
     return n;
   }
 
@@ -102,7 +109,8 @@ class Walk {
     }
     const auto vr = take(2);
     std::copy(vr.begin(), vr.end(), e.vr);
-    static constexpr std::array<std::string_view, 13> k_long{"OB", "OD", "OF", "OL", "OV", "OW", "SQ", "SV", "UC", "UN", "UR", "UT", "UV"};
+    static constexpr std::array<std::string_view, 13> k_long{
+        "OB", "OD", "OF", "OL", "OV", "OW", "SQ", "SV", "UC", "UN", "UR", "UT", "UV"};
     if (std::any_of(k_long.begin(), k_long.end(), [&](std::string_view v) { return e.is(v); })) {
       static_cast<void>(take(2));
       e.length = number(4);
@@ -116,11 +124,14 @@ class Walk {
 
   /// Items up to the mark of their end.
   void skip_sequence(const Element& of, int depth) {
-    if (depth > k_deepest) fail(FileError::damaged, msg("damaged: sequences are nested deeper than {}", k_deepest));
+    if (depth > k_deepest)
+      fail(FileError::damaged, msg("damaged: sequences are nested deeper than {}", k_deepest));
     const bool was_explicit = explicit_;
     if (of.is("UN")) explicit_ = false;
     for (Element e = element(); e.tag != k_sequence_end; e = element()) {
-      if (e.tag != k_item) fail(FileError::damaged, msg("damaged: a sequence holds something else than items, at byte {}", at_));
+      if (e.tag != k_item)
+        fail(FileError::damaged,
+             msg("damaged: a sequence holds something else than items, at byte {}", at_));
       if (e.length != k_undefined) {
         static_cast<void>(take(e.length));
         continue;
@@ -144,11 +155,14 @@ class Walk {
     if (tag == k_bits) bits_ = small(value);
     if (tag == k_frames) {
       const std::string text = text_of(value);
-      if (!text.empty() && std::from_chars(text.data(), text.data() + text.size(), slice_.frames).ec != std::errc{})
+      if (!text.empty() &&
+          std::from_chars(text.data(), text.data() + text.size(), slice_.frames).ec != std::errc{})
         fail(FileError::damaged, msg("damaged: its number of frames is none"));
     }
   }
-  [[nodiscard]] std::uint64_t small(std::span<const std::uint8_t> v) const { return v.size() < 2 ? 0 : big_ ? v[0] << 8 | v[1] : v[0] | v[1] << 8; }
+  [[nodiscard]] std::uint64_t small(std::span<const std::uint8_t> v) const {
+    return v.size() < 2 ? 0 : big_ ? v[0] << 8 | v[1] : v[0] | v[1] << 8;
+  }
   /// Without the padding.
   static std::string text_of(std::span<const std::uint8_t> v) {
     std::string text(v.begin(), v.end());
@@ -158,20 +172,28 @@ class Walk {
   }
 
   DicomSlice picture(const Element& e) {
-    if (slice_.rows == 0 || slice_.columns == 0 || samples_ == 0 || bits_ == 0 || bits_ > 64 || slice_.frames == 0 || slice_.frames > 1U << 20)
+    if (slice_.rows == 0 || slice_.columns == 0 || samples_ == 0 || bits_ == 0 || bits_ > 64 ||
+        slice_.frames == 0 || slice_.frames > 1U << 20)
       fail(FileError::damaged, msg("damaged: its picture has no size"));
     if (e.length == k_undefined) {
       std::size_t pieces = 0;
       for (Element piece = element(); piece.tag != k_sequence_end; piece = element(), ++pieces) {
-        if (piece.tag != k_item || piece.length == k_undefined) fail(FileError::damaged, msg("damaged: its compressed picture is no list of pieces"));
+        if (piece.tag != k_item || piece.length == k_undefined)
+          fail(FileError::damaged, msg("damaged: its compressed picture is no list of pieces"));
         static_cast<void>(take(piece.length));
       }
-      if (pieces < 2) fail(FileError::truncated, msg("holds no picture"));  // the first is the table of where the others begin
+      if (pieces < 2)
+        fail(FileError::truncated,
+             msg("holds no picture"));  // the first is the table of where the others begin
       return slice_;
     }
-    const std::uint64_t needed = (slice_.rows * slice_.columns * samples_ * slice_.frames * bits_ + 7) / 8, there = file_.size() - at_;
+    const std::uint64_t needed =
+                            (slice_.rows * slice_.columns * samples_ * slice_.frames * bits_ + 7) /
+                            8,
+                        there = file_.size() - at_;
     if (there < e.length || e.length < needed)
-      fail(FileError::truncated, msg("truncated: its picture needs {} bytes, {} are there", std::max<std::uint64_t>(needed, e.length),
+      fail(FileError::truncated, msg("truncated: its picture needs {} bytes, {} are there",
+                                     std::max<std::uint64_t>(needed, e.length),
                                      std::min<std::uint64_t>(there, e.length)));
     return slice_;
   }
@@ -190,6 +212,8 @@ bool says_dicom(std::span<const std::uint8_t> file) noexcept {
   return file.size() >= k_preamble + 4 && std::memcmp(file.data() + k_preamble, "DICM", 4) == 0;
 }
 
-DicomSlice check_dicom_bytes(std::span<const std::uint8_t> file, const std::string& where) { return Walk(file, where).run(); }
+DicomSlice check_dicom_bytes(std::span<const std::uint8_t> file, const std::string& where) {
+  return Walk(file, where).run();
+}
 
 }  // namespace cavum

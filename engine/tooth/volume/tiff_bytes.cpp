@@ -11,17 +11,20 @@ namespace cavum {
 namespace {
 
 constexpr std::uint64_t k_max_pages = 20'000, k_max_pieces = 1U << 20;
-constexpr std::uint64_t k_strip_offsets = 273, k_strip_bytes = 279, k_tile_offsets = 324, k_tile_bytes = 325;
+constexpr std::uint64_t k_strip_offsets = 273, k_strip_bytes = 279, k_tile_offsets = 324,
+                        k_tile_bytes = 325;
 
 class Walk {
  public:
-  Walk(std::span<const std::uint8_t> file, std::string where) : file_(file), where_(std::move(where)) {}
+  Walk(std::span<const std::uint8_t> file, std::string where)
+      : file_(file), where_(std::move(where)) {}
 
   void run() {
     if (file_.size() < 8) fail(FileError::truncated, msg("truncated: no TIFF is that short"));
     big_endian_ = file_[0] == 'M';
     const auto mark = number(2, 2);
-    if ((file_[0] != 'I' && file_[0] != 'M') || file_[1] != file_[0] || (mark != 42 && mark != 43)) fail(FileError::malformed, msg("is no TIFF"));
+    if ((file_[0] != 'I' && file_[0] != 'M') || file_[1] != file_[0] || (mark != 42 && mark != 43))
+      fail(FileError::malformed, msg("is no TIFF"));
     wide_ = mark == 43;
     std::uint64_t page = wide_ ? number(8, 8) : number(4, 4);
     for (std::uint64_t pages = 0; page != 0; ++pages) {
@@ -31,13 +34,17 @@ class Walk {
   }
 
  private:
-  [[noreturn]] void fail(FileError code, const Message& what) const { throw Error(code, Name{where_}, what, msg("use a complete copy")); }
+  [[noreturn]] void fail(FileError code, const Message& what) const {
+    throw Error(code, Name{where_}, what, msg("use a complete copy"));
+  }
 
   std::uint64_t number(std::uint64_t at, std::uint64_t bytes) const {
     if (at > file_.size() || bytes > file_.size() - at)
-      fail(FileError::truncated, msg("truncated: it refers to byte {}, and has {}", at, file_.size()));
+      fail(FileError::truncated,
+           msg("truncated: it refers to byte {}, and has {}", at, file_.size()));
     std::uint64_t n = 0;
-    for (std::uint64_t i = 0; i < bytes; ++i) n |= static_cast<std::uint64_t>(file_[at + (big_endian_ ? bytes - 1 - i : i)]) << (8 * i);
+    for (std::uint64_t i = 0; i < bytes; ++i)
+      n |= static_cast<std::uint64_t>(file_[at + (big_endian_ ? bytes - 1 - i : i)]) << (8 * i);
     return n;
   }
 
@@ -46,8 +53,10 @@ class Walk {
   };
   [[nodiscard]] std::vector<std::uint64_t> values(const Entry& e) const {
     const std::uint64_t bytes = e.type == 3 ? 2 : e.type == 4 ? 4 : e.type == 16 ? 8 : 0;
-    if (bytes == 0 || e.count > k_max_pieces) fail(FileError::damaged, msg("damaged: a page has an impossible list of pieces"));
-    const std::uint64_t room = wide_ ? 8 : 4, from = bytes * e.count <= room ? e.at : number(e.at, room);
+    if (bytes == 0 || e.count > k_max_pieces)
+      fail(FileError::damaged, msg("damaged: a page has an impossible list of pieces"));
+    const std::uint64_t room = wide_ ? 8 : 4,
+                        from = bytes * e.count <= room ? e.at : number(e.at, room);
     std::vector<std::uint64_t> out;
     for (std::uint64_t i = 0; i < e.count; ++i) out.push_back(number(from + i * bytes, bytes));
     return out;
@@ -64,11 +73,13 @@ class Walk {
       if (tag == k_strip_offsets || tag == k_tile_offsets) offsets = entry;
       if (tag == k_strip_bytes || tag == k_tile_bytes) counts = entry;
     }
-    if (offsets.count == 0 || offsets.count != counts.count) fail(FileError::damaged, msg("damaged: a page does not say where its pixels are"));
+    if (offsets.count == 0 || offsets.count != counts.count)
+      fail(FileError::damaged, msg("damaged: a page does not say where its pixels are"));
     const auto where = values(offsets), bytes = values(counts);
     for (std::size_t i = 0; i < where.size(); ++i)
       if (where[i] > file_.size() || bytes[i] > file_.size() - where[i])
-        fail(FileError::truncated, msg("truncated: pixels of a page end beyond its {} bytes", file_.size()));
+        fail(FileError::truncated,
+             msg("truncated: pixels of a page end beyond its {} bytes", file_.size()));
     return number(at + head + entries * size, wide_ ? 8 : 4);
   }
 
@@ -79,6 +90,8 @@ class Walk {
 
 }  // namespace
 
-void check_tiff_bytes(std::span<const std::uint8_t> file, const std::string& where) { Walk(file, where).run(); }
+void check_tiff_bytes(std::span<const std::uint8_t> file, const std::string& where) {
+  Walk(file, where).run();
+}
 
 }  // namespace cavum

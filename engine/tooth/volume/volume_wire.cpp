@@ -19,8 +19,10 @@ namespace cavum {
 namespace {
 
 constexpr std::string_view k_magic = "CVVOLUME";
-constexpr std::uint32_t k_error = 0, k_volume = 1, k_file_error = 2 /* and its code above it */, k_longest_text = 4096;
-constexpr const char* k_intact = said("give an intact MetaImage, NRRD, NIfTI, TIFF or DICOM series");
+constexpr std::uint32_t k_error = 0, k_volume = 1, k_file_error = 2 /* and its code above it */,
+                        k_longest_text = 4096;
+constexpr const char* k_intact =
+    noop("give an intact MetaImage, NRRD, NIfTI, TIFF or DICOM series");
 constexpr std::size_t k_head_bytes = 3 * 4 + 15 * 8;
 
 bool send(int fd, std::span<const std::uint8_t> bytes) {
@@ -44,12 +46,18 @@ ByteWriter begun(std::uint32_t kind) {
 class Incoming {
  public:
   Incoming(int fd, std::string path, int seconds)
-      : fd_(fd), path_(std::move(path)), seconds_(seconds), until_(std::chrono::steady_clock::now() + std::chrono::seconds(seconds)) {}
+      : fd_(fd),
+        path_(std::move(path)),
+        seconds_(seconds),
+        until_(std::chrono::steady_clock::now() + std::chrono::seconds(seconds)) {}
 
   void fill(std::span<std::uint8_t> to) {
     while (!to.empty()) {
       const auto n = some(to);
-      if (n == 0) throw VolumeCutOff(FileError::truncated, Name{path_}, msg("cannot be read as a volume: the reading ended early"), msg(k_intact));
+      if (n == 0)
+        throw VolumeCutOff(FileError::truncated, Name{path_},
+                           msg("cannot be read as a volume: the reading ended early"),
+                           msg(k_intact));
       to = to.subspan(n);
     }
   }
@@ -58,18 +66,22 @@ class Incoming {
     if (some(more) != 0) fail(msg("gave more than a volume"));
   }
   [[noreturn]] void fail(const Message& what, FileError code = FileError::malformed) const {
-    throw Error(code, Name{path_}, msg("cannot be read as a volume: the reading {}", what), msg(k_intact));
+    throw Error(code, Name{path_}, msg("cannot be read as a volume: the reading {}", what),
+                msg(k_intact));
   }
 
  private:
   /// 0 at the end.
   std::size_t some(std::span<std::uint8_t> to) {
     for (;;) {
-      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until_ - std::chrono::steady_clock::now()).count();
+      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+                            until_ - std::chrono::steady_clock::now())
+                            .count();
       pollfd ready{fd_, POLLIN, 0};
       const int events = left > 0 ? ::poll(&ready, 1, static_cast<int>(left)) : 0;
       if (events < 0 && errno == EINTR) continue;
-      if (events == 0) fail(msg("took longer than the limit of {} s", seconds_), FileError::unsupported);
+      if (events == 0)
+        fail(msg("took longer than the limit of {} s", seconds_), FileError::unsupported);
       const auto n = ::read(fd_, to.data(), to.size());
       if (n >= 0) return static_cast<std::size_t>(n);
       if (errno != EINTR && errno != EAGAIN) fail(msg("broke off"));
@@ -90,7 +102,8 @@ bool send_volume_error(int fd, const Error& error) {
     if (error.code() == static_cast<FileError>(code)) kind = k_file_error + code;
   ByteWriter out = begun(kind);
   for (const Message* part : {&error.where(), &error.problem(), &error.advice()})
-    out.put_string(encode(*part).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    out.put_string(
+        encode(*part).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   return send(fd, out.bytes());
 }
 
@@ -100,7 +113,8 @@ bool send_volume(int fd, const Volume& head, std::span<const float> gray) {
   for (const double s : head.spacing_mm) out.put(s);
   for (const Vec3& v : {head.axis[0], head.axis[1], head.axis[2], head.origin_mm})
     for (const double x : {v.x, v.y, v.z}) out.put(x);
-  return send(fd, out.bytes()) && send(fd, {reinterpret_cast<const std::uint8_t*>(gray.data()), gray.size_bytes()});
+  return send(fd, out.bytes()) &&
+         send(fd, {reinterpret_cast<const std::uint8_t*>(gray.data()), gray.size_bytes()});
 }
 
 Volume receive_volume(int fd, const std::string& path, std::uint64_t most, int seconds) {
@@ -125,10 +139,13 @@ Volume receive_volume(int fd, const std::string& path, std::uint64_t most, int s
         in.fail(msg("gave no volume"));
       }
     }
-    throw Error(kind == k_error ? ErrorCode(General::error) : static_cast<FileError>(kind - k_file_error), parts[0], parts[1], parts[2]);
+    throw Error(
+        kind == k_error ? ErrorCode(General::error) : static_cast<FileError>(kind - k_file_error),
+        parts[0], parts[1], parts[2]);
   }
   if (kind != k_volume) in.fail(msg("gave no volume"));
-  std::copy_n(head.begin() + k_magic.size() + 4, 4, head.begin());  // of the size, which has come already
+  std::copy_n(head.begin() + k_magic.size() + 4, 4,
+              head.begin());  // of the size, which has come already
   in.fill(std::span(head).subspan(4));
   ByteReader rest(head, path);
   Volume v;
@@ -136,7 +153,9 @@ Volume receive_volume(int fd, const std::string& path, std::uint64_t most, int s
     *n = rest.get<std::int32_t>();
     if (*n < 1 || *n > 1 << 16) in.fail(msg("gave an impossible size"));
   }
-  if (v.voxels() > most) in.fail(msg("gave {} voxels, more than the limit of {}", v.voxels(), most), FileError::too_large);
+  if (v.voxels() > most)
+    in.fail(msg("gave {} voxels, more than the limit of {}", v.voxels(), most),
+            FileError::too_large);
   for (double& s : v.spacing_mm) s = rest.get<double>();
   for (Vec3* p : {&v.axis[0], &v.axis[1], &v.axis[2], &v.origin_mm}) {
     for (double* x : {&p->x, &p->y, &p->z}) *x = rest.get<double>();

@@ -37,7 +37,8 @@ TEST(Bytes, ReadsBackWhatWasWritten) {
 
 TEST(Bytes, KeepTheExtremesOfVarints) {
   ByteWriter out;
-  const auto least = std::numeric_limits<std::int64_t>::min(), most = std::numeric_limits<std::int64_t>::max();
+  const auto least = std::numeric_limits<std::int64_t>::min(),
+             most = std::numeric_limits<std::int64_t>::max();
   out.put_signed_varint(least);
   out.put_signed_varint(most);
   out.put_varint(~0ULL);
@@ -79,7 +80,8 @@ TEST(Bytes, ALengthBeyondTheEndIsAnErrorAndNoAllocation) {
   EXPECT_THROW((void)in.get_string(), Error);
   ByteReader again(out.bytes(), "x");
   (void)again.get<std::uint8_t>();
-  EXPECT_THROW((void)again.get_bytes(std::numeric_limits<std::size_t>::max()), Error);  // must not wrap around
+  EXPECT_THROW((void)again.get_bytes(std::numeric_limits<std::size_t>::max()),
+               Error);  // must not wrap around
   EXPECT_EQ(again.left(), 4u);
 }
 

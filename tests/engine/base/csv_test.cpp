@@ -19,12 +19,14 @@ std::optional<Error> error_in(const std::string& text, const CsvForm& form = {})
 
 TEST(Csv, Utf16IsRefusedByName) {
   using namespace std::string_literals;
-  for (const std::string& text : {"\xff\xfe" + "a\0,\0"s, "\xfe\xff" + "\0a\0,"s}) EXPECT_EQ(code_of(error_in(text)), FileError::unsupported);
+  for (const std::string& text : {"\xff\xfe" + "a\0,\0"s, "\xfe\xff" + "\0a\0,"s})
+    EXPECT_EQ(code_of(error_in(text)), FileError::unsupported);
 }
 
 TEST(Csv, AFirstLineMayNameTheSeparator) {
   for (const std::string c : {"\t", "|", ":", "~", "^"})
-    for (const std::string& first : {"sep=" + c, "SEP=" + c, "\"sep=" + c + "\"", "\xef\xbb\xbfsep=" + c}) {
+    for (const std::string& first :
+         {"sep=" + c, "SEP=" + c, "\"sep=" + c + "\"", "\xef\xbb\xbfsep=" + c}) {
       const std::string text = first + "\r\nid" + c + "name\r\n1" + c + "B, A; C\r\n";
       const auto rows = parse_csv(text, "c.csv");
       ASSERT_EQ(rows.size(), 2u) << text;
@@ -32,7 +34,8 @@ TEST(Csv, AFirstLineMayNameTheSeparator) {
       EXPECT_EQ(rows[1].fields, (Fields{"1", "B, A; C"})) << text;
       EXPECT_EQ(rows[1].line, 3);
     }
-  EXPECT_EQ(parse_csv("sep=;\nid;a,b,c\n1;2\n", "c.csv")[0].fields, (Fields{"id", "a,b,c"})) << "and not what stands there most often";
+  EXPECT_EQ(parse_csv("sep=;\nid;a,b,c\n1;2\n", "c.csv")[0].fields, (Fields{"id", "a,b,c"}))
+      << "and not what stands there most often";
   EXPECT_EQ(parse_csv("sep=,\nid,a;b;c\n1,2\n", "c.csv")[0].fields, (Fields{"id", "a;b;c"}));
   EXPECT_EQ(parse_csv("sep=\n1\n", "c.csv")[0].fields, (Fields{"sep="})) << "names none";
   EXPECT_EQ(parse_csv("sep=x\n1\n", "c.csv").size(), 2u) << "a heading";
@@ -40,7 +43,8 @@ TEST(Csv, AFirstLineMayNameTheSeparator) {
 }
 
 TEST(Csv, IsReadAsSpreadsheetsWriteIt) {
-  const auto rows = parse_csv("\xef\xbb\xbfid;name\r\n1;\"Lee; \"\"Ann\"\"\"\r\n# nobody\r\n\r\n 2 ;Müller\n", "c.csv");
+  const auto rows = parse_csv(
+      "\xef\xbb\xbfid;name\r\n1;\"Lee; \"\"Ann\"\"\"\r\n# nobody\r\n\r\n 2 ;Müller\n", "c.csv");
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0].fields, (Fields{"id", "name"}));
   EXPECT_EQ(rows[1].fields, (Fields{"1", "Lee; \"Ann\""}));
@@ -55,7 +59,9 @@ TEST(Csv, IsReadAsSpreadsheetsWriteIt) {
 TEST(Csv, TheHeadingSaysWhatPartsTheFieldsNotTheCommentAboveIt) {
   for (const char* part : {",", ";", "\t"}) {
     const std::string p = part;
-    const auto rows = parse_csv("# a, comment; of, its, own\n\na" + p + "\"b,,;\t\"" + p + "c\n1" + p + p + "3\n", "c.csv", k_any_text);
+    const auto rows =
+        parse_csv("# a, comment; of, its, own\n\na" + p + "\"b,,;\t\"" + p + "c\n1" + p + p + "3\n",
+                  "c.csv", k_any_text);
     ASSERT_EQ(rows.size(), 2u) << part;
     EXPECT_EQ(rows[0].fields, (Fields{"a", "b,,;\t", "c"})) << part;
     EXPECT_EQ(rows[1].fields, (Fields{"1", "", "3"})) << part;
@@ -69,7 +75,8 @@ TEST(Csv, EmptyFieldsAtTheEndsOfARowAreFields) {
 
 TEST(Csv, LinesAreCountedThroughQuotesAndAllLineEnds) {
   for (const std::string end : {"\n", "\r\n", "\r"}) {
-    const auto rows = parse_csv("a,b" + end + "1,\"two\nlines\"" + end + end + "3,4" + end, "c.csv", k_any_text);
+    const auto rows =
+        parse_csv("a,b" + end + "1,\"two\nlines\"" + end + end + "3,4" + end, "c.csv", k_any_text);
     ASSERT_EQ(rows.size(), 3u);
     EXPECT_EQ(rows[1].fields[1], "two\nlines");
     EXPECT_EQ(rows[1].line, 2);
@@ -129,7 +136,8 @@ TEST(CsvLimits, RowsAndFieldsBeyondAreRefusedWithTheLimitNamed) {
 TEST(CsvNumber, IsAllOfTheFieldAndFinite) {
   EXPECT_EQ(number_in_field("-0.5e1"), -5.0);
   EXPECT_EQ(number_in_field("+2"), 2.0);
-  for (const char* other : {"", "1,5", "1 ", "0x10", "nan", "inf", "1e999", "+-1", "one"}) EXPECT_EQ(number_in_field(other), std::nullopt) << other;
+  for (const char* other : {"", "1,5", "1 ", "0x10", "nan", "inf", "1e999", "+-1", "one"})
+    EXPECT_EQ(number_in_field(other), std::nullopt) << other;
 }
 
 }  // namespace

@@ -60,7 +60,8 @@ TEST(DetMath, TanhNeverFalls) {  // a friction law must not: the search for its 
 
 TEST(DetMath, DirectionsAgreeWithTheLibrary) {
   constexpr double k_deg = 180 / k_pi;
-  for (double t = -20; t < 20; t += 0.037) EXPECT_NEAR(atan_deg(t), std::atan(t) * k_deg, 1e-8) << t;
+  for (double t = -20; t < 20; t += 0.037)
+    EXPECT_NEAR(atan_deg(t), std::atan(t) * k_deg, 1e-8) << t;
   for (double angle = -179.9; angle < 180; angle += 0.37) {
     const auto [sin, cos] = det_sincos(angle / k_deg);
     EXPECT_NEAR(direction_deg(7 * cos, 7 * sin), angle, 1e-8);

@@ -11,8 +11,11 @@ namespace {
 using testing_basics::bytes_of;
 
 TEST(Encoding, IsAsRfc4648Prints) {
-  const char* examples[][3] = {
-      {"", "", ""}, {"f", "Zg==", "66"}, {"fo", "Zm8=", "666f"}, {"foo", "Zm9v", "666f6f"}, {"foob", "Zm9vYg==", "666f6f62"}};
+  const char* examples[][3] = {{"", "", ""},
+                               {"f", "Zg==", "66"},
+                               {"fo", "Zm8=", "666f"},
+                               {"foo", "Zm9v", "666f6f"},
+                               {"foob", "Zm9vYg==", "666f6f62"}};
   for (const auto& [text, base64, hex] : examples) {
     EXPECT_EQ(to_base64(bytes_of(text)), base64);
     EXPECT_EQ(from_base64(base64), bytes_of(text));
@@ -24,8 +27,10 @@ TEST(Encoding, IsAsRfc4648Prints) {
 }
 
 TEST(Encoding, RefusesEveryOtherText) {
-  for (const char* bad : {"Zg", "Zg=", "Zh==", "Zg==\n", "-_8=", "Zm9\xff"}) EXPECT_FALSE(from_base64(bad)) << bad;
-  for (const char* bad : {"-_8=", "+/8", "-_9"}) EXPECT_FALSE(from_base64(bad, Base64::in_address)) << bad;
+  for (const char* bad : {"Zg", "Zg=", "Zh==", "Zg==\n", "-_8=", "Zm9\xff"})
+    EXPECT_FALSE(from_base64(bad)) << bad;
+  for (const char* bad : {"-_8=", "+/8", "-_9"})
+    EXPECT_FALSE(from_base64(bad, Base64::in_address)) << bad;
   for (const char* bad : {"6", "6F", "6g", " 6f", "6f "}) EXPECT_FALSE(from_hex(bad)) << bad;
 }
 

@@ -14,7 +14,8 @@ TEST(Figures, AClockNamesTheSecondThatHasBegun) {
   for (int tick = 0; tick < 7'200'000; tick += 1000) {  // as ticks become seconds
     const std::string text = clock_text(tick * 0.001);
     const std::size_t colon = text.find(':');
-    ASSERT_EQ(std::stoi(text.substr(0, colon)) * 60 + std::stoi(text.substr(colon + 1)), tick / 1000);
+    ASSERT_EQ(std::stoi(text.substr(0, colon)) * 60 + std::stoi(text.substr(colon + 1)),
+              tick / 1000);
   }
 }
 

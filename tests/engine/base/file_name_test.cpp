@@ -10,7 +10,8 @@ namespace cavum {
 namespace {
 
 TEST(FileName, OfAPlainNameIsTheName) {
-  for (const char* name : {"C-7KQ2-9ZTF-X0A1", "molar_access", "tooth-16.v2", "a"}) EXPECT_EQ(file_name_of(name), name);
+  for (const char* name : {"C-7KQ2-9ZTF-X0A1", "molar_access", "tooth-16.v2", "a"})
+    EXPECT_EQ(file_name_of(name), name);
 }
 
 TEST(FileName, IsAlwaysOneNameInOneFolder) {
@@ -40,7 +41,10 @@ TEST(FileName, IsAlwaysOneNameInOneFolder) {
     EXPECT_FALSE(name.empty());
     EXPECT_LE(name.size(), 120u);
     EXPECT_EQ(std::filesystem::path(name).filename().string(), name) << text;
-    EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_."), std::string::npos) << name;
+    EXPECT_EQ(
+        name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_."),
+        std::string::npos)
+        << name;
     EXPECT_TRUE(name.front() != '.' && name.front() != '-') << name;
     seen.insert(name);
   }

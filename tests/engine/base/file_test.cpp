@@ -18,7 +18,8 @@ using namespace testing_engine;
 TEST(File, WritesAndReadsBackEveryByte) {
   const Folder folder;
   Bytes bytes(200000);
-  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i * 7 + i / 251);
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    bytes[i] = static_cast<std::uint8_t>(i * 7 + i / 251);
   write_file(folder.file("a"), bytes);
   EXPECT_EQ(read_file(folder.file("a")), bytes);
   write_text_file(folder.file("a"), "short");
@@ -42,7 +43,8 @@ TEST(File, ADeviceOrAPipeIsNotReplacedByAFile) {
 
 TEST(File, MissingFileAndFolderAreErrorsThatNameThem) {
   const Folder folder;
-  for (const auto& [path, code] : {std::pair(folder.file("none"), FileError::missing), std::pair(folder.path().string(), FileError::not_a_file)}) {
+  for (const auto& [path, code] : {std::pair(folder.file("none"), FileError::missing),
+                                   std::pair(folder.path().string(), FileError::not_a_file)}) {
     const auto error = thrown_by([&, name = path] { (void)read_file(name); });
     EXPECT_EQ(code_of(error), code);
     EXPECT_EQ(place_of(error), path);
@@ -73,7 +75,8 @@ TEST(File, LargerThanTheCallersLimitIsRefusedWithTheLimitNamed) {
   refused(999, [&] { (void)read_file(folder.file("a"), 999); });
   refused(999, [&] { (void)read_text_file(folder.file("a"), 999); });
   write_text_file(folder.file("sparse"), "");
-  std::filesystem::resize_file(folder.file("sparse"), std::uintmax_t{1} << 36);  // 64 GB that take no room on the disk
+  std::filesystem::resize_file(folder.file("sparse"),
+                               std::uintmax_t{1} << 36);  // 64 GB that take no room on the disk
   refused(1 << 30, [&] { (void)read_file(folder.file("sparse")); });
   refused(1 << 24, [&] { (void)read_text_file(folder.file("sparse")); });
   refused(10, [] { (void)read_file("/proc/self/status", 10); });  // fstat knows no size
@@ -81,7 +84,8 @@ TEST(File, LargerThanTheCallersLimitIsRefusedWithTheLimitNamed) {
 
 TEST(File, FolderThatCannotBeWrittenLeavesTheOldFileIntact) {
   const Folder folder;
-  EXPECT_EQ(code_of([&] { write_text_file(folder.file("no/such/folder/a"), "new"); }), FileError::not_written);
+  EXPECT_EQ(code_of([&] { write_text_file(folder.file("no/such/folder/a"), "new"); }),
+            FileError::not_written);
   write_text_file(folder.file("a"), "old");
   std::optional<Error> error;
   if (::geteuid() == 0) {  // root may write everywhere, but open no file beyond its limit
@@ -93,7 +97,8 @@ TEST(File, FolderThatCannotBeWrittenLeavesTheOldFileIntact) {
     error = thrown_by([&] { write_text_file(folder.file("a"), "new"); });
     ::setrlimit(RLIMIT_NOFILE, &was);
   } else {
-    std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+    std::filesystem::permissions(
+        folder.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
     error = thrown_by([&] { write_text_file(folder.file("a"), "new"); });
   }
   EXPECT_EQ(place_of(error), folder.file("a"));
@@ -116,7 +121,9 @@ TEST(File, RunningOutOfRoomLeavesTheOldFileIntact) {
   EXPECT_EQ(code_of(error), FileError::not_written);
   EXPECT_EQ(place_of(error), folder.file("a"));
   EXPECT_EQ(read_text_file(folder.file("a")), "old");
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()), 1)
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()),
+                          std::filesystem::directory_iterator()),
+            1)
       << "half a file was left behind";
 }
 

@@ -1,5 +1,5 @@
-// Messages: gaps are filled with values of every kind, in a language with other words, order, decimal sign and plural forms; errors are told apart by
-// code.
+// Messages: gaps are filled with values of every kind, in a language with other words, order,
+// decimal sign and plural forms; errors are told apart by code.
 #include "engine/base/message.h"
 
 #include <gtest/gtest.h>
@@ -15,12 +15,23 @@ namespace {
 class Backwards final : public Locale {
  public:
   [[nodiscard]] std::string sentence(const char* english) const override {
-    return std::string_view(english) == "{} of {}" ? "{1} <- {0}" : std::string_view(english) == "bad" ? "{} {}" : english;
+    return std::string_view(english) == "{} of {}" ? "{1} <- {0}"
+           : std::string_view(english) == "bad"    ? "{} {}"
+                                                   : english;
   }
-  [[nodiscard]] std::string sentence(const char* one, const char* many, std::int64_t count) const override { return count < 3 ? one : many; }
-  [[nodiscard]] std::string term(const std::string& english) const override { return {english.rbegin(), english.rend()}; }
-  [[nodiscard]] std::string authored(const std::string& english) const override { return english + "!"; }
-  [[nodiscard]] std::string name(const std::string& text) const override { return "<" + text + ">"; }
+  [[nodiscard]] std::string sentence(const char* one, const char* many,
+                                     std::int64_t count) const override {
+    return count < 3 ? one : many;
+  }
+  [[nodiscard]] std::string term(const std::string& english) const override {
+    return {english.rbegin(), english.rend()};
+  }
+  [[nodiscard]] std::string authored(const std::string& english) const override {
+    return english + "!";
+  }
+  [[nodiscard]] std::string name(const std::string& text) const override {
+    return "<" + text + ">";
+  }
   [[nodiscard]] char decimal_sign() const noexcept override { return ','; }
 };
 
@@ -39,10 +50,12 @@ TEST(Message, RendersEveryKindOfValue) {
   EXPECT_EQ(english_text(msg("{}", Vec3{1, -2, 0.5})), "[1.00, -2.00, 0.50] mm");
   EXPECT_EQ(render(msg("{}, {}", 7, ClockTime{65.9}), other), "7, 1:05");
   EXPECT_EQ(render(msg("{}: {}", Authored{"Open"}, std::string("A.B")), other), "Open!: <A.B>");
-  EXPECT_EQ(render(msg("{}", FilePlace{"a.toml", 3, 4}), other), "<a.toml:3:4>");
+  EXPECT_EQ(render(msg("{}", FileLocation{"a.toml", 3, 4}), other), "<a.toml:3:4>");
   EXPECT_EQ(english_text(msg("{}", list_of(std::vector<std::string>{"a", "b"}))), "a, b");
   EXPECT_EQ(render(msg("see {}", msg("{} of {}", 1, 2)), other), "see 2 <- 1");
-  EXPECT_EQ(english_text(msg("{} {}", Number{.value = 0.5, .digits = 1, .sign = true}, as_deg(12.4))), "+0.5 12°");
+  EXPECT_EQ(
+      english_text(msg("{} {}", Number{.value = 0.5, .digits = 1, .sign = true}, as_deg(12.4))),
+      "+0.5 12°");
   EXPECT_EQ(english_text(Message()), "");
 }
 
@@ -53,7 +66,9 @@ TEST(Message, TakesTheFormThatTheLanguageCounts) {
   EXPECT_EQ(render(msgn("{} step", "{} steps", 2, 2), Backwards()), "2 step");
 }
 
-TEST(Message, FallsBackToEnglishWhenATranslationHasOtherGaps) { EXPECT_EQ(render(msg("bad"), Backwards()), "bad"); }
+TEST(Message, FallsBackToEnglishWhenATranslationHasOtherGaps) {
+  EXPECT_EQ(render(msg("bad"), Backwards()), "bad");
+}
 
 TEST(Message, IsEqualBySentenceAndValues) {
   EXPECT_EQ(msg("{} of {}", 1, 2), msg("{} of {}", 1, 2));
@@ -67,11 +82,11 @@ CAVUM_NAMED_ENUM(Kettle, KETTLE)
 CAVUM_NAMED_ENUM(Stove, STOVE)
 
 TEST(Error, IsToldFromOthersByItsCode) {
-  const Error e(Kettle::cold, FilePlace{"tea.toml", 2, 1}, msg("is cold"), msg("heat it"));
+  const Error e(Kettle::cold, FileLocation{"tea.toml", 2, 1}, msg("is cold"), msg("heat it"));
   EXPECT_EQ(e.code(), Kettle::cold);
   EXPECT_FALSE(e.code() == Kettle::empty);
   EXPECT_FALSE(e.code() == Stove::cold);
-  EXPECT_EQ(*e.file_place(), (FilePlace{"tea.toml", 2, 1}));
+  EXPECT_EQ(*e.file_place(), (FileLocation{"tea.toml", 2, 1}));
   EXPECT_EQ(e.problem(), msg("is cold"));
   EXPECT_EQ(e.advice(), msg("heat it"));
   EXPECT_EQ(e.what(), english_text(e.message()));

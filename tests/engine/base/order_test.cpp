@@ -14,8 +14,10 @@ TEST(Order, EachPlaceHoldsWhatSortingPutsThere) {
     for (double& v : values) v = static_cast<double>(random.below(12));
     std::vector<double> sorted = values;
     std::sort(sorted.begin(), sorted.end());
-    for (std::size_t place = 0; place < n; ++place) EXPECT_EQ(in_order(values, place), sorted[place]);
-    for (const double share : {0.0, 0.05, 0.5, 0.95, 1.0}) EXPECT_EQ(quantile(values, share), quantile_of_sorted(sorted, share));
+    for (std::size_t place = 0; place < n; ++place)
+      EXPECT_EQ(in_order(values, place), sorted[place]);
+    for (const double share : {0.0, 0.05, 0.5, 0.95, 1.0})
+      EXPECT_EQ(quantile(values, share), quantile_of_sorted(sorted, share));
   }
 }
 

@@ -55,20 +55,25 @@ TEST(Pose, RotationBetweenCarriesOneDirectionOntoTheOther) {
   }
 }
 
-// Half the angle between two unit vectors is that of a right triangle with the legs |to - from| and |to + from|: good to the last digits everywhere.
+// Half the angle between two unit vectors is that of a right triangle with the legs |to - from| and
+// |to + from|: good to the last digits everywhere.
 TEST(Pose, RotationBetweenIsTheShortestUpToOppositeDirections) {
   Random random(drawn_seed("Pose.RotationBetweenIsTheShortestUpToOppositeDirections"));
   for (int i = 0; i < 40000; ++i) {
     const Vec3 from = random_direction(random);
     const Vec3 across = normalized(cross(from, random_direction(random)));
-    const double off = i % 50 == 49 ? 0.0 : std::pow(10.0, -i % 50 / 2.5);  // 1 down to 1e-19 rad from the opposite
+    const double off =
+        i % 50 == 49 ? 0.0
+                     : std::pow(10.0, -i % 50 / 2.5);  // 1 down to 1e-19 rad from the opposite
     const Vec3 to = normalized(across * std::sin(off) - from * std::cos(off));
     const Quat q = rotation_between(from, to);
     const Vec3 v{q.x, q.y, q.z};
     ASSERT_NEAR(q.w * q.w + dot(v, v), 1.0, 1e-15) << off;
     ASSERT_LE(length(rotation(q) * from - to), 1e-12) << off << " rad from the opposite";
     ASSERT_LE(length(sandwich(q, from) - to), 1e-12) << off;
-    ASSERT_NEAR(2 * std::atan2(length(v), q.w), 2 * std::atan2(length(to - from), length(to + from)), 1e-12) << off;
+    ASSERT_NEAR(2 * std::atan2(length(v), q.w),
+                2 * std::atan2(length(to - from), length(to + from)), 1e-12)
+        << off;
     ASSERT_NEAR(dot(v, from), 0.0, 1e-12) << "the axis of the shortest lies across both, " << off;
     ASSERT_NEAR(dot(v, to), 0.0, 1e-12) << off;
   }
@@ -82,7 +87,8 @@ TEST(Pose, RotationBetweenKeepsItsBitsAwayFromOppositeDirections) {
     const Vec3 across = normalized(cross(from, random_direction(random)));
     const double off = 0.0015 * std::pow(2000.0, random.uniform());
     const Vec3 to = normalized(across * std::sin(off) - from * std::cos(off)), c = cross(from, to);
-    EXPECT_EQ(rotation_between(from, to), normalized(Quat{1.0 + dot(from, to), c.x, c.y, c.z})) << off;
+    EXPECT_EQ(rotation_between(from, to), normalized(Quat{1.0 + dot(from, to), c.x, c.y, c.z}))
+        << off;
   }
 }
 

@@ -24,7 +24,8 @@ constexpr std::size_t k_models = 5;
 Bytes encoded(const Sent& message) {
   std::vector<AdaptiveBit> models(k_models);
   RangeEncoder out;
-  for (std::size_t i = 0; i < message.bit.size(); ++i) out.code(models[message.model[i]], message.bit[i]);
+  for (std::size_t i = 0; i < message.bit.size(); ++i)
+    out.code(models[message.model[i]], message.bit[i]);
   return out.finish();
 }
 
@@ -64,7 +65,9 @@ TEST(RangeCoder, TakesTheRoomThatTheEntropyAsksFor) {
     RangeEncoder out;
     double ones = 0;
     for (std::size_t i = 0; i < k_bits; ++i) ones += out.code(model[0], random.uniform() < chance);
-    const double p = ones / double(k_bits), entropy_bytes = -double(k_bits) * (p * std::log2(p) + (1 - p) * std::log2(1 - p)) / 8;
+    const double p = ones / double(k_bits),
+                 entropy_bytes =
+                     -double(k_bits) * (p * std::log2(p) + (1 - p) * std::log2(1 - p)) / 8;
     const double bytes = static_cast<double>(out.finish().size());
     EXPECT_GT(bytes, 0.999 * entropy_bytes) << "chance " << chance;
     EXPECT_LT(bytes, 1.02 * entropy_bytes) << "chance " << chance;

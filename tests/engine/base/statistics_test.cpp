@@ -25,7 +25,8 @@ TEST(Statistics, TooFewValuesHaveNoScatter) {
 
 /// The American Statistician 27 (1973) 17: mean 9 and 7.50, variance 11, r = 0.816.
 TEST(Statistics, MomentsAreThoseOfAnscombe) {
-  const std::vector<double> x = {10, 8, 13, 9, 11, 14, 6, 4, 12, 7, 5}, y = {8.04, 6.95, 7.58, 8.81, 8.33, 9.96, 7.24, 4.26, 10.84, 4.82, 5.68};
+  const std::vector<double> x = {10, 8, 13, 9, 11, 14, 6, 4, 12, 7, 5},
+                            y = {8.04, 6.95, 7.58, 8.81, 8.33, 9.96, 7.24, 4.26, 10.84, 4.82, 5.68};
   EXPECT_EQ(mean(x), 9.0);
   EXPECT_NEAR(mean(y), 7.50, 0.005);
   EXPECT_DOUBLE_EQ(variance(x), 11.0);

@@ -6,11 +6,14 @@ namespace cavum {
 namespace {
 
 const std::string k_umlaut = "z\xc3\xa4hne", k_tooth = "\xf0\x9f\xa6\xb7";
-// a stray byte, a character cut short, one written too long, half of a UTF-16 pair, one beyond the last
-const char* const k_not_utf8[] = {"a\xff", "\x80", "\xc3", "\xe2\x82", "\xc0\xaf", "\xe0\x80\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80"};
+// a stray byte, a character cut short, one written too long, half of a UTF-16 pair, one beyond the
+// last
+const char* const k_not_utf8[] = {"a\xff",    "\x80",         "\xc3",         "\xe2\x82",
+                                  "\xc0\xaf", "\xe0\x80\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80"};
 
 TEST(Text, PlainIsValidUtf8WithoutControlCharacters) {
-  for (const std::string& good : {std::string(), std::string("gutta-percha"), k_umlaut, k_tooth}) EXPECT_TRUE(is_plain_text(good)) << good;
+  for (const std::string& good : {std::string(), std::string("gutta-percha"), k_umlaut, k_tooth})
+    EXPECT_TRUE(is_plain_text(good)) << good;
   for (const char* bad : k_not_utf8) EXPECT_FALSE(is_plain_text(bad));
   for (const char* bad : {"a\nb", "a\tb", "\x1b[31m", "\x7f"}) EXPECT_FALSE(is_plain_text(bad));
   EXPECT_FALSE(is_plain_text(std::string_view("a\0b", 3)));
@@ -49,7 +52,8 @@ TEST(Text, ControlsOfUnicodeAreControls) {
   EXPECT_EQ(one_line("\xe2\x80\xae"
                      "ssap"),
             " ssap");
-  const std::string beside = "\xc2\xa0\xe2\x80\xa7\xe2\x80\xaf\xe2\x81\xa5\xe2\x81\xaa";  // the characters next to those
+  const std::string beside =
+      "\xc2\xa0\xe2\x80\xa7\xe2\x80\xaf\xe2\x81\xa5\xe2\x81\xaa";  // the characters next to those
   EXPECT_EQ(one_line(beside), beside);
 }
 
@@ -65,13 +69,15 @@ TEST(Text, ForATerminalKeepsItsLayoutAndCommandsNothing) {
 }
 
 TEST(Text, JsonForATerminalReadsTheSame) {
-  EXPECT_EQ(terminal_json("{\n \"a\": \"" + k_umlaut + "\xc2\x9b\xe2\x80\xae\x7f\"\n}"), "{\n \"a\": \"" + k_umlaut + "\\u009b\\u202e\\u007f\"\n}");
+  EXPECT_EQ(terminal_json("{\n \"a\": \"" + k_umlaut + "\xc2\x9b\xe2\x80\xae\x7f\"\n}"),
+            "{\n \"a\": \"" + k_umlaut + "\\u009b\\u202e\\u007f\"\n}");
 }
 
 TEST(Text, WholeCharactersEndWhereOneEnds) {
   const std::string text = "a" + k_tooth + "\xc3\xa4";
   const std::size_t whole[] = {0, 1, 1, 1, 1, 5, 5, 7};
-  for (std::size_t n = 0; n <= text.size(); ++n) EXPECT_EQ(whole_characters(std::string_view(text).substr(0, n)), whole[n]) << n;
+  for (std::size_t n = 0; n <= text.size(); ++n)
+    EXPECT_EQ(whole_characters(std::string_view(text).substr(0, n)), whole[n]) << n;
   EXPECT_EQ(whole_characters("\x80\x80\x80\x80\x80"), 5u) << "what is no UTF-8 is not waited for";
 }
 
@@ -106,9 +112,11 @@ TEST(Text, NumbersReadAsPeopleWriteThem) {
 }
 
 TEST(Text, WhatCannotBeSeenSaysNothing) {
-  for (const char* nothing : {"", " ", "   ", "\u00a0", "\u200b", "\u3164", "\u2800", "\u2003 \u00a0", "\ufe0f", "\ufeff"})
+  for (const char* nothing : {"", " ", "   ", "\u00a0", "\u200b", "\u3164", "\u2800",
+                              "\u2003 \u00a0", "\ufe0f", "\ufeff"})
     EXPECT_FALSE(is_seen_text(nothing)) << '"' << nothing << '"';
-  for (const char* something : {"x", " a b ", "\u00e4", "\u5f20\u4f1f", "\u0646\u200c\u0645", "\U0001f9b7"})
+  for (const char* something :
+       {"x", " a b ", "\u00e4", "\u5f20\u4f1f", "\u0646\u200c\u0645", "\U0001f9b7"})
     EXPECT_TRUE(is_seen_text(something)) << something;
   EXPECT_FALSE(is_seen_text("two\nlines"));
   EXPECT_FALSE(is_seen_text("\xff"));

@@ -45,16 +45,20 @@ TEST(TomlReader, SyntaxErrorsCarryTheirLine) {
 }
 
 TEST(TomlReader, WrongAndMissingValuesAreRefusedAtTheirPlaceOrThatOfTheirTable) {
-  expect_refused(k_text, {{FileError::out_of_range, "f.toml:2:5", [](TomlReader& in) { (void)in.number("k", 1, 2); }},
-                          {FileError::wrong_type, "f.toml:4:9", [](TomlReader& in) { (void)in.number("bad", 0, 1); }},
-                          {FileError::wrong_type, "f.toml:3:9", [](TomlReader& in) { (void)in.text("count"); }},
-                          {FileError::wrong_type, "f.toml:2:5", [](TomlReader& in) { (void)in.table("k"); }},
-                          {FileError::wrong_type, "f.toml:5:1", [](TomlReader& in) { (void)in.array("inner"); }},
-                          {FileError::missing, "f.toml:1:1", [](TomlReader& in) { (void)in.number("none", 0, 1); }},
-                          {FileError::missing, "f.toml:5:1", [](TomlReader& in) { (void)TomlReader(*in.table("inner"), "f.toml").text("none"); }}});
+  expect_refused(
+      k_text,
+      {{FileError::out_of_range, "f.toml:2:5", [](TomlReader& in) { (void)in.number("k", 1, 2); }},
+       {FileError::wrong_type, "f.toml:4:9", [](TomlReader& in) { (void)in.number("bad", 0, 1); }},
+       {FileError::wrong_type, "f.toml:3:9", [](TomlReader& in) { (void)in.text("count"); }},
+       {FileError::wrong_type, "f.toml:2:5", [](TomlReader& in) { (void)in.table("k"); }},
+       {FileError::wrong_type, "f.toml:5:1", [](TomlReader& in) { (void)in.array("inner"); }},
+       {FileError::missing, "f.toml:1:1", [](TomlReader& in) { (void)in.number("none", 0, 1); }},
+       {FileError::missing, "f.toml:5:1",
+        [](TomlReader& in) { (void)TomlReader(*in.table("inner"), "f.toml").text("none"); }}});
   const toml::table document = parse_toml(k_text, "f.toml");
   const auto outside = thrown_by([&] { (void)TomlReader(document, "f.toml").number("k", 1, 2); });
-  EXPECT_TRUE(tells(outside, "k") && tells(outside, 0.8) && tells(outside, 1.0) && tells(outside, 2.0));
+  EXPECT_TRUE(tells(outside, "k") && tells(outside, 0.8) && tells(outside, 1.0) &&
+              tells(outside, 2.0));
 }
 
 TEST(TomlReader, WhatNobodyAskedForIsAnError) {
@@ -62,7 +66,9 @@ TEST(TomlReader, WhatNobodyAskedForIsAnError) {
     return [left_out](TomlReader& in) {
       for (const char* key : {"name", "k", "count", "bad"})
         if (key != left_out)
-          (void)in.has(key), (void)(std::string(key) == "name" || std::string(key) == "bad" ? in.text(key) : std::to_string(in.number(key, 0, 9)));
+          (void)in.has(key), (void)(std::string(key) == "name" || std::string(key) == "bad"
+                                        ? in.text(key)
+                                        : std::to_string(in.number(key, 0, 9)));
       if (left_out != "inner") (void)in.table("inner");
       in.finish();
     };
@@ -70,12 +76,15 @@ TEST(TomlReader, WhatNobodyAskedForIsAnError) {
   const toml::table document = parse_toml(k_text, "f.toml");
   TomlReader in(document, "f.toml");
   EXPECT_NO_THROW(all_but("")(in));
-  expect_refused(k_text, {{FileError::unknown, "f.toml:4:9", all_but("bad")}, {FileError::unknown, "f.toml:5:1", all_but("inner")}});
+  expect_refused(k_text, {{FileError::unknown, "f.toml:4:9", all_but("bad")},
+                          {FileError::unknown, "f.toml:5:1", all_but("inner")}});
 }
 
 TEST(TomlReader, NotANumberIsOutsideEveryRange) {
-  expect_refused("a = nan\nb = inf\n", {{FileError::out_of_range, "f.toml:1:5", [](TomlReader& in) { (void)in.number("a", 0, 1); }},
-                                        {FileError::out_of_range, "f.toml:2:5", [](TomlReader& in) { (void)in.number("b", 0, 1); }}});
+  expect_refused("a = nan\nb = inf\n", {{FileError::out_of_range, "f.toml:1:5",
+                                         [](TomlReader& in) { (void)in.number("a", 0, 1); }},
+                                        {FileError::out_of_range, "f.toml:2:5",
+                                         [](TomlReader& in) { (void)in.number("b", 0, 1); }}});
 }
 
 TEST(TomlReader, DefaultsHoldOnlyForAbsentKeys) {

@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 using namespace testing_basics;
 
 std::size_t entries_in(const Folder& folder) {
-  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()));
+  return static_cast<std::size_t>(
+      std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()));
 }
 
 /// Sets the process's umask while it lives.
@@ -60,7 +61,8 @@ TEST(WriteFile, WritersOfOneFileAtOnceAllSucceedAndOneOfThemStandsWhole) {
     if (child == 0) {
       for (int i = 0; i < k_times; ++i) {
         try {
-          write_text_file(folder.file("a"), std::string(static_cast<std::size_t>(1000 + 70000 * w), static_cast<char>('a' + w)));
+          write_text_file(folder.file("a"), std::string(static_cast<std::size_t>(1000 + 70000 * w),
+                                                        static_cast<char>('a' + w)));
           const std::string seen = read_text_file(folder.file("a"));  // of whoever was last
           const auto whose = static_cast<std::size_t>(seen.at(0) - 'a');
           if (seen != std::string(1000 + 70000 * whose, seen[0])) ::_exit(2);
@@ -75,7 +77,8 @@ TEST(WriteFile, WritersOfOneFileAtOnceAllSucceedAndOneOfThemStandsWhole) {
   for (const ::pid_t child : children) {
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
-    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << (WEXITSTATUS(status) == 2 ? "half a file was seen" : "a writer was refused");
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0)
+        << (WEXITSTATUS(status) == 2 ? "half a file was seen" : "a writer was refused");
   }
   EXPECT_EQ(entries_in(folder), 1u);
 }
@@ -117,7 +120,8 @@ TEST(WriteFile, NothingGoesOverWhatCameMeanwhileWhenItMayNotReplace) {
   write_text_file(folder.file("a"), "old");
   fs::create_symlink(folder.file("nothing"), folder.file("link"));
   for (const std::string name : {"a", "link"}) {
-    const auto error = thrown_by([&] { write_text_file(folder.file(name), "new", {.may_replace = false}); });
+    const auto error =
+        thrown_by([&] { write_text_file(folder.file(name), "new", {.may_replace = false}); });
     EXPECT_EQ(code_of(error), FileError::exists);
     EXPECT_EQ(place_of(error), folder.file(name));
     EXPECT_EQ(code_of([&] { make_private_file(folder.file(name)); }), FileError::exists);
@@ -147,7 +151,9 @@ TEST(WriteFile, TheFolderIsSyncedOrTheDiskIsBlamed) {
   EXPECT_EQ(code_of([&] { sync_folder_of(folder.file("none/a")); }), FileError::not_written);
 }
 
-TEST(WriteFile, TemporaryNamesAreNeverTheSame) { EXPECT_NE(temporary_name_beside("a"), temporary_name_beside("a")); }
+TEST(WriteFile, TemporaryNamesAreNeverTheSame) {
+  EXPECT_NE(temporary_name_next_to("a"), temporary_name_next_to("a"));
+}
 
 }  // namespace
 }  // namespace cavum

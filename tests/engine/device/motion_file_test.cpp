@@ -51,7 +51,8 @@ TEST(MotionFile, EveryFaultIsAnErrorWithItsLine) {
   const std::string good = "0,0,0,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0\n";
   ASSERT_FALSE(error_in(k_header + good));
   expect_error("# c\nt_s,x_mm,y_mm,z_mm,qw,qx,qy,qz\n" + good, 2, MotionError::column_missing);
-  expect_error("t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,colour\n" + good, 1, MotionError::unknown_column);
+  expect_error("t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,colour\n" + good, 1,
+               MotionError::unknown_column);
   expect_error("t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,x_mm\n" + good, 1, MotionError::column_twice);
   expect_error("t_s,x_m,y_mm,z_mm,qw,qx,qy,qz,pedal\n" + good, 1, MotionError::column_unit);
   expect_error("t_ms,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal\n" + good, 1, MotionError::column_unit);
@@ -77,13 +78,17 @@ TEST(MotionFile, EveryFaultIsAnErrorWithItsLine) {
   expect_error(k_header + good + "2,\"0\",0,0,1,0,0,0,0\n", 4, MotionError::not_a_number);
   expect_error(k_header + good + "2,0,0,501,1,0,0,0,0\n", 4, MotionError::too_far);
   for (const char* bur : {"0.5", "256", "-2"})
-    expect_error("t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,bur\n0,0,0,0,1,0,0,0,0,0\n1,1,0,0,1,0,0,0,0," + std::string(bur) + "\n", 3, MotionError::bur);
+    expect_error(
+        "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,bur\n0,0,0,0,1,0,0,0,0,0\n1,1,0,0,1,0,0,0,0," +
+            std::string(bur) + "\n",
+        3, MotionError::bur);
 }
 
 TEST(MotionFile, ReadsWhatSpreadsheetsWriteOnEverySystem) {
   for (const std::string end : {"\n", "\r\n", "\r"})
     for (const std::string mark : {"", "\xef\xbb\xbf"}) {
-      const std::string rows = k_header.substr(0, k_header.size() - 1) + end + "0,0,0,0,1,0,0,0,0" + end + "1,1,0,0,1,0,0,0,0" + end;
+      const std::string rows = k_header.substr(0, k_header.size() - 1) + end + "0,0,0,0,1,0,0,0,0" +
+                               end + "1,1,0,0,1,0,0,0,0" + end;
       ASSERT_FALSE(error_in(mark + rows));
       EXPECT_EQ(parse_motion(mark + "# bur = round-1.0" + end + rows, "m.csv").bur, "round-1.0");
       expect_error(mark + rows + end + "2,nan,0,0,1,0,0,0,0" + end, 5, MotionError::not_finite);
@@ -91,7 +96,8 @@ TEST(MotionFile, ReadsWhatSpreadsheetsWriteOnEverySystem) {
 }
 
 TEST(MotionFile, AClockThatDoesNotBeginAtZeroIsAccepted) {
-  const Motion m = parse_motion(k_header + "1795238400,0,0,0,1,0,0,0,0\n1795238402,4,0,0,1,0,0,0,0\n", "m.csv");
+  const Motion m =
+      parse_motion(k_header + "1795238400,0,0,0,1,0,0,0,0\n1795238402,4,0,0,1,0,0,0,0\n", "m.csv");
   EXPECT_DOUBLE_EQ(m.duration_s(), 2);
   EXPECT_NEAR(m.at(1).pose.tip_mm.x, 2, 1e-6);
 }
@@ -100,23 +106,28 @@ TEST(MotionFile, FaultsOfTheWholeFileAreFound) {
   EXPECT_EQ(code_of(error_in("")), MotionError::too_short);
   EXPECT_EQ(code_of(error_in(k_header + "0,0,0,0,1,0,0,0,0\n")), MotionError::too_short);
   // a way of 10 mm written in metres
-  EXPECT_EQ(code_of(error_in(k_header + "0,0,0,0,1,0,0,0,0\n1,0.01,0,0,1,0,0,0,0\n")), MotionError::in_metres);
-  EXPECT_FALSE(error_in(k_header + "0,5,0,0,1,0,0,0,0\n1,5,0,0,1,0,0,0,1\n")) << "standing still is no fault";
+  EXPECT_EQ(code_of(error_in(k_header + "0,0,0,0,1,0,0,0,0\n1,0.01,0,0,1,0,0,0,0\n")),
+            MotionError::in_metres);
+  EXPECT_FALSE(error_in(k_header + "0,5,0,0,1,0,0,0,0\n1,5,0,0,1,0,0,0,1\n"))
+      << "standing still is no fault";
 }
 
 TEST(MotionFile, NoTruncationOrOddByteCrashesTheReader) {
   Random random(drawn_seed("MotionFile.NoTruncationOrOddByteCrashesTheReader"));
-  const std::string good = "# bur = round-1.0\n" + k_header + "0,0.5,-1e-3,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0.25\n";
+  const std::string good =
+      "# bur = round-1.0\n" + k_header + "0,0.5,-1e-3,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0.25\n";
   for (std::size_t n = 0; n < good.size(); ++n) (void)error_in(good.substr(0, n));
   for (int i = 0; i < 3000; ++i) {
     std::string bad = good;
-    for (auto n = 1 + random.below(3); n > 0; --n) bad[random.below(bad.size())] = static_cast<char>(random.below(256));
+    for (auto n = 1 + random.below(3); n > 0; --n)
+      bad[random.below(bad.size())] = static_cast<char>(random.below(256));
     (void)error_in(bad);
   }
 }
 
 TEST(MotionFile, ButtonsAreZeroOrOneAndABurIsNamedOrNumbered) {
-  const std::string header = "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,b1,b2,bur\n", second = "1,1,0,0,1,0,0,0,0,0,0,0\n";
+  const std::string header = "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,b1,b2,bur\n",
+                    second = "1,1,0,0,1,0,0,0,0,0,0,0\n";
   EXPECT_FALSE(error_in(header + "0,0,0,0,1,0,0,0,0,0,0,0\n" + second));
   for (const auto& [bad, code] : {std::pair{"7,0,0", MotionError::button},
                                   {"0,-1,0", MotionError::button},
@@ -126,12 +137,14 @@ TEST(MotionFile, ButtonsAreZeroOrOneAndABurIsNamedOrNumbered) {
                                   {"0,0,256", MotionError::bur},
                                   {"0,0,0.5", MotionError::bur}})
     expect_error(header + "0,0,0,0,1,0,0,0,0," + bad + "\n" + second, 2, code);
-  EXPECT_EQ(code_of(error_in("# bur =\n" + k_header + "0,0,0,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0\n")), MotionError::setting)
+  EXPECT_EQ(code_of(error_in("# bur =\n" + k_header + "0,0,0,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0\n")),
+            MotionError::setting)
       << "not silently the first bur";
 }
 
 TEST(MotionFile, PlaysLinearlyBetweenRowsAndHoldsTheEnds) {
-  const Motion m = parse_motion(k_header + "5,0,0,0,1,0,0,0,0\n7,4,-2,1,1,0,0,0,1\n8,4,-2,1,1,0,0,0,0.5\n", "m.csv");
+  const Motion m = parse_motion(
+      k_header + "5,0,0,0,1,0,0,0,0\n7,4,-2,1,1,0,0,0,1\n8,4,-2,1,1,0,0,0,0.5\n", "m.csv");
   const MotionSample half = m.at(0.5);
   EXPECT_LE(length(half.pose.tip_mm - Vec3{1, -0.5, 0.25}), 1e-12);
   EXPECT_NEAR(half.pedal, 0.25, 1e-12);
@@ -143,30 +156,40 @@ TEST(MotionFile, PlaysLinearlyBetweenRowsAndHoldsTheEnds) {
 }
 
 TEST(MotionFile, TurnsTheShorterWayRound) {
-  // q and -q are one rotation: a quarter turn about x, written with the other sign, passes through an eighth
+  // q and -q are one rotation: a quarter turn about x, written with the other sign, passes through
+  // an eighth
   const double h = std::sqrt(0.5);
-  const Motion m = parse_motion(k_header + "0,0,0,0,1,0,0,0,0\n1,1,0,0," + std::to_string(-h) + "," + std::to_string(-h) + ",0,0,0\n", "m.csv");
+  const Motion m = parse_motion(k_header + "0,0,0,0,1,0,0,0,0\n1,1,0,0," + std::to_string(-h) +
+                                    "," + std::to_string(-h) + ",0,0,0\n",
+                                "m.csv");
   const Vec3 turned = rotation(m.at(0.5).pose.rotation) * Vec3{0, 1, 0};
   EXPECT_LE(length(turned - Vec3{0, std::cos(k_pi / 4), std::sin(k_pi / 4)}), 1e-6);
 }
 
 TEST(MotionFile, ButtonsAndBurHoldUntilTheNextRow) {
-  const Motion m = parse_motion("t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,b1,b2,bur\n0,0,0,0,1,0,0,0,0,1,0,3\n1,1,0,0,1,0,0,0,0,0,1,4\n", "m.csv");
+  const Motion m = parse_motion(
+      "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,b1,b2,bur\n0,0,0,0,1,0,0,0,0,1,0,3\n1,1,0,0,1,0,0,0,0,0,1,4\n",
+      "m.csv");
   EXPECT_TRUE(m.at(0.999).button_1);
   EXPECT_EQ(m.at(0.999).bur, 3);
   EXPECT_FALSE(m.at(1.0).button_1);
   EXPECT_TRUE(m.at(1.0).button_2);
   EXPECT_EQ(m.at(1.0).bur, 4);
-  EXPECT_EQ(parse_motion(k_header + "0,0,0,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0\n", "m.csv").at(0).bur, -1);
+  EXPECT_EQ(parse_motion(k_header + "0,0,0,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0\n", "m.csv").at(0).bur,
+            -1);
 }
 
 TEST(MotionFile, SaysTheStepOfTheEncoder) {
   const std::string rows = k_header + "0,0,0,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0\n";
-  EXPECT_EQ(parse_motion("# position_quantum_mm = 0.055\n" + rows, "m.csv").position_quantum_mm, 0.055);
+  EXPECT_EQ(parse_motion("# position_quantum_mm = 0.055\n" + rows, "m.csv").position_quantum_mm,
+            0.055);
   EXPECT_EQ(parse_motion(rows, "m.csv").position_quantum_mm, 0.0);
-  EXPECT_EQ(motion_quantum_mm("# made by hand\n# position_quantum_mm = 0.01\n" + rows, "m.csv"), 0.01);
+  EXPECT_EQ(motion_quantum_mm("# made by hand\n# position_quantum_mm = 0.01\n" + rows, "m.csv"),
+            0.01);
   for (const char* wrong : {"-0.01", "2", "nan", "0.055 mm", ""})
-    EXPECT_EQ(code_of(error_in(std::string("# position_quantum_mm = ") + wrong + "\n" + rows)), MotionError::setting) << wrong;
+    EXPECT_EQ(code_of(error_in(std::string("# position_quantum_mm = ") + wrong + "\n" + rows)),
+              MotionError::setting)
+        << wrong;
 }
 
 TEST(MotionFile, GivesTheInputsOfAnExamAgainToTheLastBit) {
@@ -174,15 +197,18 @@ TEST(MotionFile, GivesTheInputsOfAnExamAgainToTheLastBit) {
   std::vector<TickInput> inputs;
   TickInput before;
   for (int i = 0; i < 5000; ++i) {
-    const Quat q = normalized(Quat{random.normal(), random.normal(), random.normal(), random.normal()});
+    const Quat q =
+        normalized(Quat{random.normal(), random.normal(), random.normal(), random.normal()});
     const Vec3 tip{3.0 * random.normal(), 0.055 * std::floor(20 * random.normal()), -1e-6 * i};
     auto flags = static_cast<std::uint16_t>(k_stylus_fresh | k_pedal_fresh);
     if (i % 7 == 3) flags |= k_button_1;
     if (i % 11 == 5) flags |= k_button_2;
-    before = make_tick_input({tip, q}, random.uniform(), flags, static_cast<std::uint8_t>(i / 1000), before);
+    before = make_tick_input({tip, q}, random.uniform(), flags, static_cast<std::uint8_t>(i / 1000),
+                             before);
     inputs.push_back(before);
   }
-  const Motion motion = parse_motion(motion_text(inputs, {-2.35, 0.25, 1.200001}, 0.055, "s.cavum"), "m.csv");
+  const Motion motion =
+      parse_motion(motion_text(inputs, {-2.35, 0.25, 1.200001}, 0.055, "s.cavum"), "m.csv");
   EXPECT_EQ(motion.position_quantum_mm, 0.055);
   EXPECT_EQ(motion.first_tip_mm, (Vec3{-2.35, 0.25, 1.200001}));
   for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -190,20 +216,25 @@ TEST(MotionFile, GivesTheInputsOfAnExamAgainToTheLastBit) {
     std::uint16_t flags = k_stylus_fresh | k_pedal_fresh;
     if (s.button_1) flags |= k_button_1;
     if (s.button_2) flags |= k_button_2;
-    ASSERT_EQ(make_tick_input(s.pose, s.pedal, flags, static_cast<std::uint8_t>(s.bur), {}), inputs[i]) << i;
+    ASSERT_EQ(make_tick_input(s.pose, s.pedal, flags, static_cast<std::uint8_t>(s.bur), {}),
+              inputs[i])
+        << i;
   }
 }
 
 TEST(MotionFile, RefusesAFirstTipThatIsNoPlace) {
   const std::string rows = k_header + "0,0,0,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0\n";
   for (const char* wrong : {"1 2", "1 2 3 4", "1 2 nan", "1 2 600", "", "a b c"})
-    EXPECT_EQ(code_of(error_in(std::string("# first_tip_mm = ") + wrong + "\n" + rows)), MotionError::setting) << wrong;
+    EXPECT_EQ(code_of(error_in(std::string("# first_tip_mm = ") + wrong + "\n" + rows)),
+              MotionError::setting)
+        << wrong;
 }
 
 TEST(MotionFile, CannotSayThatADeviceGaveNothing) {
   std::vector<TickInput> inputs(3, make_tick_input({}, 0.5, k_stylus_fresh | k_pedal_fresh, 0, {}));
   inputs[1].flags = k_pedal_fresh;
-  EXPECT_EQ(code_of([&] { (void)motion_text(inputs, {}, 0.0, "s.cavum"); }), MotionError::no_reading);
+  EXPECT_EQ(code_of([&] { (void)motion_text(inputs, {}, 0.0, "s.cavum"); }),
+            MotionError::no_reading);
 }
 
 }  // namespace

@@ -20,13 +20,16 @@ Quat drawn_rotation(std::mt19937_64& random) {
   return normalized(Quat{n(random), n(random), n(random), n(random)});
 }
 
-const StylusKind& kind(const std::string& id) { return stylus_kinds().at(id, {}, {StylusHand::person}); }
+const StylusKind& kind(const std::string& id) {
+  return stylus_kinds().at(id, {}, {StylusHand::person});
+}
 
 TEST(Placement, FitFindsWhereTheMarksWere) {
   std::mt19937_64 random(drawn_seed("Placement"));
   std::uniform_real_distribution<double> place(-30, 30);
   for (int round = 0; round < 200; ++round) {
-    const Placement truth{drawn_rotation(random), {place(random), place(random), place(random)}, {}};
+    const Placement truth{
+        drawn_rotation(random), {place(random), place(random), place(random)}, {}};
     std::vector<Vec3> device, tooth;
     for (int i = 0; i < 4; ++i) {
       device.push_back({place(random), place(random), place(random)});
@@ -37,7 +40,10 @@ TEST(Placement, FitFindsWhereTheMarksWere) {
     EXPECT_LT(fit.worst_mm, 1e-9);
     const Vec3 p{place(random), place(random), place(random)};
     EXPECT_LT(length(to_tooth(fit.placement, p).tip_mm - to_tooth(truth, p).tip_mm), 1e-7);
-    EXPECT_NEAR(dot(force_to_device(fit.placement, {1, 2, 3}), force_to_device(fit.placement, {1, 2, 3})), 14.0, 1e-9) << "forces keep their size";
+    EXPECT_NEAR(
+        dot(force_to_device(fit.placement, {1, 2, 3}), force_to_device(fit.placement, {1, 2, 3})),
+        14.0, 1e-9)
+        << "forces keep their size";
   }
 }
 
@@ -56,23 +62,34 @@ TEST(Placement, UnsteadyMarksLeaveWhatTheyScatter) {
   // least squares: any small turn or shift leaves more
   const auto left = [&](const Placement& p) {
     double sum = 0;
-    for (std::size_t i = 0; i < 4; ++i) sum += dot(to_tooth(p, device[i]).tip_mm - tooth[i], to_tooth(p, device[i]).tip_mm - tooth[i]);
+    for (std::size_t i = 0; i < 4; ++i)
+      sum +=
+          dot(to_tooth(p, device[i]).tip_mm - tooth[i], to_tooth(p, device[i]).tip_mm - tooth[i]);
     return sum;
   };
   const double best = left(fit.placement);
   for (int i = 0; i < 100; ++i) {
     Placement other = fit.placement;
-    other.rotation = normalized(turned(other.rotation, Quat{1, 0.01 * noise(random), 0.01 * noise(random), 0.01 * noise(random)}));
+    other.rotation = normalized(turned(
+        other.rotation, Quat{1, 0.01 * noise(random), 0.01 * noise(random), 0.01 * noise(random)}));
     other.offset_mm += Vec3{noise(random), noise(random), noise(random)} * 0.1;
     EXPECT_GE(left(other), best);
   }
 }
 
 TEST(Placement, MarksThatSayNothingAreRefused) {
-  EXPECT_EQ(code_of([] { static_cast<void>(fit_placement({{0, 0, 0}, {10, 0, 0}}, {{0, 0, 0}, {10, 0, 0}})); }), DeviceError::unequal_marks);
-  const std::vector<Vec3> line{{0, 0, 0}, {10, 0, 0}, {20, 0, 0}, {30, 0.5, 0}}, plane{{0, 0, 0}, {20, 0, 0}, {0, 20, 0}, {0, 0, 20}};
-  EXPECT_EQ(code_of([&] { static_cast<void>(fit_placement(line, plane)); }), DeviceError::marks_in_line);
-  EXPECT_EQ(code_of([&] { static_cast<void>(fit_placement({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, plane)); }), DeviceError::marks_in_line);
+  EXPECT_EQ(code_of([] {
+              static_cast<void>(fit_placement({{0, 0, 0}, {10, 0, 0}}, {{0, 0, 0}, {10, 0, 0}}));
+            }),
+            DeviceError::unequal_marks);
+  const std::vector<Vec3> line{{0, 0, 0}, {10, 0, 0}, {20, 0, 0}, {30, 0.5, 0}},
+      plane{{0, 0, 0}, {20, 0, 0}, {0, 20, 0}, {0, 0, 20}};
+  EXPECT_EQ(code_of([&] { static_cast<void>(fit_placement(line, plane)); }),
+            DeviceError::marks_in_line);
+  EXPECT_EQ(code_of([&] {
+              static_cast<void>(fit_placement({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, plane));
+            }),
+            DeviceError::marks_in_line);
 }
 
 TEST(Placement, RotationsFollowTheirMatrices) {
@@ -100,8 +117,11 @@ TEST(StationStylus, IsReadAsItWasWritten) {
   EXPECT_NEAR(read.placement.tool.z, s.placement.tool.z, 1e-15);
   EXPECT_EQ(read.settings, s.settings);
   EXPECT_EQ(read.number("arm_offset_deg"), 41.5);
-  EXPECT_EQ(code_of([&] { static_cast<void>(read.text("library")); }), DeviceError::not_a_setting) << "a setting of another stylus";
-  EXPECT_EQ(code_of([&] { static_cast<void>(read.text("arm_offset_deg")); }), DeviceError::not_a_setting) << "a number, not a text";
+  EXPECT_EQ(code_of([&] { static_cast<void>(read.text("library")); }), DeviceError::not_a_setting)
+      << "a setting of another stylus";
+  EXPECT_EQ(code_of([&] { static_cast<void>(read.text("arm_offset_deg")); }),
+            DeviceError::not_a_setting)
+      << "a number, not a text";
 }
 
 TEST(StationStylus, WrongFilesAreRefused) {
@@ -115,7 +135,9 @@ TEST(StationStylus, WrongFilesAreRefused) {
     std::string wrong = good;
     ASSERT_NE(wrong.find(from), std::string::npos) << from << "\n" << good;
     wrong.replace(wrong.find(from), std::string(from).size(), to);
-    EXPECT_THROW(static_cast<void>(parse_station_stylus(wrong, "stylus.toml", kind("falcon"))), Error) << wrong;
+    EXPECT_THROW(static_cast<void>(parse_station_stylus(wrong, "stylus.toml", kind("falcon"))),
+                 Error)
+        << wrong;
   }
 }
 

@@ -1,4 +1,5 @@
-// Mouse and keyboard as a stylus: the simulated Omni goes where they want it, at a hand's pace, and what they say is taken whole or not at all.
+// Mouse and keyboard as a stylus: the simulated Omni goes where they want it, at a hand's pace, and
+// what they say is taken whole or not at all.
 #include "engine/device/pointer_stylus.h"
 
 #include <gtest/gtest.h>
@@ -99,7 +100,8 @@ TEST(PointerStylus, AnIntentIsTakenWholeOrNotAtAll) {
   });
   int moved = 0;
   double last = -1;
-  for (int i = 0; i < 50000000 && moved < 300; ++i) {  // a busy computer may keep the writer waiting
+  for (int i = 0; i < 50000000 && moved < 300;
+       ++i) {  // a busy computer may keep the writer waiting
     const DeviceReading r = stylus.read(0.0);
     if (i == 0 || last < 0) {
       last = r.pedal;

@@ -27,13 +27,16 @@ TEST(SimulatedOmni, DeflectsAgainstTheHandsSpringAsForceOverStiffness) {
       hand.stiffness_n_per_mm = k;
       OmniState state = make_omni_state({1, 2, 3});
       Vec3 at;
-      for (int i = 0; i < 20000; ++i) at = advance_omni(ideal(), hand, state, {0, force, 0}, {1, 2, 3}, k_dt);
+      for (int i = 0; i < 20000; ++i)
+        at = advance_omni(ideal(), hand, state, {0, force, 0}, {1, 2, 3}, k_dt);
       EXPECT_LE(length(at - Vec3{1, 2 + force / k, 3}), 1e-6) << k << " N/mm, " << force << " N";
       OmniModel rough = ideal();
       rough.coulomb_n = 0.26;
       state = make_omni_state({1, 2, 3});
-      for (int i = 0; i < 20000; ++i) at = advance_omni(rough, hand, state, {0, force, 0}, {1, 2, 3}, k_dt);
-      EXPECT_LE(std::fabs(at.y - 2 - force / k), 0.26 / k + 1e-6) << "friction may hold it up by no more than its own force";
+      for (int i = 0; i < 20000; ++i)
+        at = advance_omni(rough, hand, state, {0, force, 0}, {1, 2, 3}, k_dt);
+      EXPECT_LE(std::fabs(at.y - 2 - force / k), 0.26 / k + 1e-6)
+          << "friction may hold it up by no more than its own force";
     }
 }
 
@@ -45,7 +48,8 @@ TEST(SimulatedOmni, FrictionHoldsBelow026NAndNotAbove) {
   const auto way = [&](double force) {
     OmniState state = make_omni_state({});
     Vec3 at;
-    for (int i = 0; i < 1000; ++i) at = advance_omni(omni, free, state, normalized(Vec3{1, -2, 2}) * force, {}, k_dt);
+    for (int i = 0; i < 1000; ++i)
+      at = advance_omni(omni, free, state, normalized(Vec3{1, -2, 2}) * force, {}, k_dt);
     return length(at);
   };
   EXPECT_EQ(way(0.255), 0.0);
@@ -90,7 +94,8 @@ TEST(SimulatedOmni, OscillatesAtTheFrequencyOfMassAndSpringAndLosesEnergy) {
       if (crossings++ == 0) first = last;
     }
     before = x;
-    const double energy = 0.5 * 0.3 * x * x + 0.5 * 0.145e-3 * dot(state.velocity_mm_s, state.velocity_mm_s);
+    const double energy =
+        0.5 * 0.3 * x * x + 0.5 * 0.145e-3 * dot(state.velocity_mm_s, state.velocity_mm_s);
     ASSERT_LE(energy, 0.5 * 0.3 * 4 * 1.01) << "the simulation itself made energy";
   }
   ASSERT_GE(crossings, 3);
@@ -103,8 +108,11 @@ TEST(SimulatedOmni, ReportsWholeQuanta) {
   OmniState state = make_omni_state({});
   for (int i = 0; i < 3000; ++i) {
     const double t = i * k_dt;
-    const Vec3 at = advance_omni(omni, {}, state, random_direction(random), {5 * std::sin(3 * t), 2 * t, -t}, k_dt);
-    for (const auto& [told, is] : {std::pair{at.x, state.position_mm.x}, {at.y, state.position_mm.y}, {at.z, state.position_mm.z}}) {
+    const Vec3 at = advance_omni(omni, {}, state, random_direction(random),
+                                 {5 * std::sin(3 * t), 2 * t, -t}, k_dt);
+    for (const auto& [told, is] : {std::pair{at.x, state.position_mm.x},
+                                   {at.y, state.position_mm.y},
+                                   {at.z, state.position_mm.z}}) {
       ASSERT_NEAR(told / 0.055, std::round(told / 0.055), 1e-9);
       ASSERT_LE(std::fabs(told - is), 0.0275 + 1e-9);
     }
@@ -115,7 +123,8 @@ TEST(SimulatedOmni, MotorsSaturateAt3_3N) {
   OmniState at_peak = make_omni_state({}), beyond = make_omni_state({});
   const Vec3 along = normalized(Vec3{1, 1, -1});
   for (int i = 0; i < 2000; ++i) {
-    const Vec3 a = advance_omni(ideal(), {}, at_peak, along * 3.3, {}, k_dt), b = advance_omni(ideal(), {}, beyond, along * 50, {}, k_dt);
+    const Vec3 a = advance_omni(ideal(), {}, at_peak, along * 3.3, {}, k_dt),
+               b = advance_omni(ideal(), {}, beyond, along * 50, {}, k_dt);
     ASSERT_LE(length(a - b), 1e-9);
   }
   EXPECT_NEAR(length(at_peak.position_mm), 3.3 / 2.0, 0.01);

@@ -53,9 +53,11 @@ RemovedTicks draw_removed(Random& random, std::size_t ticks) {
   RemovedTicks removed;
   RemovedLeaf b;
   for (std::size_t i = 0; i < ticks; ++i) {
-    removed.counts.push_back(random.below(3) == 0 ? static_cast<std::uint32_t>(random.below(60)) : 0);
+    removed.counts.push_back(random.below(3) == 0 ? static_cast<std::uint32_t>(random.below(60))
+                                                  : 0);
     for (std::uint32_t k = 0; k < removed.counts.back(); ++k) {
-      b = {draw(random, b.x), draw(random, b.y), draw(random, b.z), static_cast<std::uint8_t>(random.next()), 0};
+      b = {draw(random, b.x), draw(random, b.y), draw(random, b.z),
+           static_cast<std::uint8_t>(random.next()), 0};
       removed.leaves.push_back(b);
     }
   }
@@ -83,7 +85,8 @@ TEST(ChunkCodec, ReturnsEveryValueExactlyExtremesIncluded) {
 TEST(ChunkCodec, SmoothMotionShrinksAtLeastSixfold) {
   std::vector<TickInput> inputs;
   for (std::int64_t i = 0; i < k_chunk_ticks; ++i) inputs.push_back(test::motion_at(i));
-  EXPECT_LT(pack_inputs(inputs).size(), inputs.size() * 36 / 6);  // 36 bytes a tick as plain columns
+  EXPECT_LT(pack_inputs(inputs).size(),
+            inputs.size() * 36 / 6);  // 36 bytes a tick as plain columns
 }
 
 TEST(ChunkCodec, RefusesAnyOtherNumberOfTicks) {
@@ -92,7 +95,8 @@ TEST(ChunkCodec, RefusesAnyOtherNumberOfTicks) {
   for (const std::int64_t ticks : {0L, 9L, 11L, -1L, 1001L, std::numeric_limits<long>::max()})
     EXPECT_THROW((void)unpack_inputs(packed, ticks, "test"), Error) << ticks;
   const Bytes removed = pack_removed({{1, 0}, {RemovedLeaf{1, 2, 3, 4, 0}}});
-  for (const std::int64_t ticks : {0L, 1L, 3L, 1001L}) EXPECT_THROW((void)unpack_removed(removed, ticks, "test"), Error) << ticks;
+  for (const std::int64_t ticks : {0L, 1L, 3L, 1001L})
+    EXPECT_THROW((void)unpack_removed(removed, ticks, "test"), Error) << ticks;
 }
 
 TEST(ChunkCodec, ArbitraryBytesGiveAnErrorOrValuesButNeverMore) {
@@ -107,7 +111,9 @@ TEST(ChunkCodec, ArbitraryBytesGiveAnErrorOrValuesButNeverMore) {
     if (run % 2 == 0) {
       bytes.resize(random.below(400));
       for (auto& b : bytes) b = static_cast<std::uint8_t>(random.next());
-      if (bytes.size() > 4 && run % 4 == 0) std::copy(good_removed.begin(), good_removed.begin() + 4, bytes.begin());  // zstd's magic number
+      if (bytes.size() > 4 && run % 4 == 0)
+        std::copy(good_removed.begin(), good_removed.begin() + 4,
+                  bytes.begin());  // zstd's magic number
     } else {
       bytes = run % 4 == 1 ? good_removed : good_records;
       bytes[random.below(bytes.size())] ^= static_cast<std::uint8_t>(1u << random.below(8));

@@ -12,15 +12,17 @@ class ClockCheck : public testing::Test {
   void SetUp() override {
     test::make_closed_session(path_, 6000);
     // what a hand in real time would have left: each second ends a second after the one before
-    test::tamper(path_,
-                 "UPDATE meta SET value = '0' WHERE key IN ('created_monotonic_ns', 'created_boot_ns', 'created_utc_ns'); "
-                 "UPDATE chunk SET monotonic_ns = (seq + 1) * 1000000000, boot_ns = (seq + 1) * 1000000000, utc_ns = (seq + 1) * 1000000000");
+    test::tamper(
+        path_,
+        "UPDATE meta SET value = '0' WHERE key IN ('created_monotonic_ns', 'created_boot_ns', 'created_utc_ns'); "
+        "UPDATE chunk SET monotonic_ns = (seq + 1) * 1000000000, boot_ns = (seq + 1) * 1000000000, utc_ns = (seq + 1) * 1000000000");
   }
   std::vector<ClockRemark> after(const std::string& sql) {
     if (!sql.empty()) test::tamper(path_, sql);
     return check_clocks(SessionReader(path_));
   }
-  void expect_one(const std::vector<ClockRemark>& remarks, std::int64_t tick, DamageKind kind, double s) {
+  void expect_one(const std::vector<ClockRemark>& remarks, std::int64_t tick, DamageKind kind,
+                  double s) {
     ASSERT_EQ(remarks.size(), 1u) << (remarks.size() > 1 ? remarks[1].message() : Message());
     EXPECT_EQ(remarks[0].first_tick, tick);
     EXPECT_EQ(remarks[0].kind, kind);
@@ -32,12 +34,16 @@ class ClockCheck : public testing::Test {
 
 TEST_F(ClockCheck, AnExamInRealTimeIsNotRemarkedOn) { EXPECT_TRUE(after("").empty()); }
 TEST_F(ClockCheck, ASuspendIsNamedWithItsLength) {
-  expect_one(after("UPDATE chunk SET boot_ns = boot_ns + 5000000000, utc_ns = utc_ns + 5000000000 WHERE seq >= 2"), 2000, DamageKind::clock_slept, 5);
+  expect_one(
+      after(
+          "UPDATE chunk SET boot_ns = boot_ns + 5000000000, utc_ns = utc_ns + 5000000000 WHERE seq >= 2"),
+      2000, DamageKind::clock_slept, 5);
 }
 TEST_F(ClockCheck, SlowMotionIsNamedAndLongerIsDoubtful) {
   const auto slow = [](const char* by) {
     const std::string more = std::string(" + ") + by;
-    return "UPDATE chunk SET monotonic_ns = monotonic_ns" + more + ", boot_ns = boot_ns" + more + ", utc_ns = utc_ns" + more + " WHERE seq >= 4";
+    return "UPDATE chunk SET monotonic_ns = monotonic_ns" + more + ", boot_ns = boot_ns" + more +
+           ", utc_ns = utc_ns" + more + " WHERE seq >= 4";
   };
   const auto once = after(slow("1500000000"));
   expect_one(once, 4000, DamageKind::clock_slow, 2.5);
@@ -49,21 +55,27 @@ TEST_F(ClockCheck, SlowMotionIsNamedAndLongerIsDoubtful) {
   EXPECT_TRUE(twice[1].doubtful);
 }
 TEST_F(ClockCheck, AWallClockThatWasSetIsNamed) {
-  expect_one(after("UPDATE chunk SET utc_ns = utc_ns - 3600000000000 WHERE seq >= 1"), 1000, DamageKind::clock_put_back, 3600);
+  expect_one(after("UPDATE chunk SET utc_ns = utc_ns - 3600000000000 WHERE seq >= 1"), 1000,
+             DamageKind::clock_put_back, 3600);
 }
 TEST_F(ClockCheck, ARecordingFasterThanTimeIsDoubtful) {
-  const auto remarks = after("UPDATE chunk SET monotonic_ns = monotonic_ns / 10, boot_ns = boot_ns / 10, utc_ns = utc_ns / 10");
+  const auto remarks = after(
+      "UPDATE chunk SET monotonic_ns = monotonic_ns / 10, boot_ns = boot_ns / 10, utc_ns = utc_ns / 10");
   expect_one(remarks, 1000, DamageKind::clock_fast, 5.4);
   EXPECT_TRUE(remarks[0].doubtful);
 }
 TEST_F(ClockCheck, AFastEndOfAnExamThatBeganInRealTimeIsDoubtful) {
-  const auto remarks = after("UPDATE chunk SET monotonic_ns = 3000000000, boot_ns = 3000000000, utc_ns = 3000000000 WHERE seq >= 3");
+  const auto remarks = after(
+      "UPDATE chunk SET monotonic_ns = 3000000000, boot_ns = 3000000000, utc_ns = 3000000000 WHERE seq >= 3");
   expect_one(remarks, 4000, DamageKind::clock_fast, 3);
   EXPECT_TRUE(remarks[0].doubtful);
 }
 TEST_F(ClockCheck, AWriterThatWaitedForItsDiskIsNot) {
   // the fourth second is written late, those after it at once
-  EXPECT_TRUE(after("UPDATE chunk SET monotonic_ns = 5400000000, boot_ns = 5400000000, utc_ns = 5400000000 WHERE seq = 4").empty());
+  EXPECT_TRUE(
+      after(
+          "UPDATE chunk SET monotonic_ns = 5400000000, boot_ns = 5400000000, utc_ns = 5400000000 WHERE seq = 4")
+          .empty());
 }
 TEST_F(ClockCheck, TimeThatTheServoOwnsUpToIsAccountedFor) {
   const std::string path = folder_.file("stopped.cavum");

@@ -14,11 +14,13 @@ namespace {
 /// The force model with hard tissue that recedes eight times faster.
 std::string softened(std::string text) {
   const std::string was = "tau_s = 2.02", is = "tau_s = 0.25";
-  for (auto at = text.find(was); at != std::string::npos; at = text.find(was, at)) text.replace(at, was.size(), is);
+  for (auto at = text.find(was); at != std::string::npos; at = text.find(was, at))
+    text.replace(at, was.size(), is);
   return text;
 }
 
-double box_distance(double x, double y, double z, double half_x, double half_y, double low_z, double high_z) {
+double box_distance(double x, double y, double z, double half_x, double half_y, double low_z,
+                    double high_z) {
   return std::max({std::fabs(x) - half_x, std::fabs(y) - half_y, low_z - z, z - high_z});
 }
 
@@ -49,7 +51,8 @@ SessionSetup block_setup() {
   setup.candidate = "candidate-7";
   setup.calibration = "exact";
   setup.scenario_toml = "title = \"drill the block\"\n";
-  setup.force_model_toml = softened(read_text_file(testing_basics::data_path("materials/paper.toml")));
+  setup.force_model_toml =
+      softened(read_text_file(testing_basics::data_path("materials/paper.toml")));
   setup.servo_toml = to_toml(ServoConfig{});
   setup.burs_toml = {read_text_file(testing_basics::data_path("burs/round-1.0.toml"))};
   setup.tooth = save_tooth(block_tooth());
@@ -66,8 +69,9 @@ TickInput motion_at(std::int64_t tick) {
   const double tremor = 0.01 * std::sin(2 * k_pi * 9.1 * t) + 0.004 * std::sin(2 * k_pi * 23.7 * t);
   pose.tip_mm.x = 0.35 * std::sin(2 * k_pi * t / 1.7) + tremor;
   pose.tip_mm.y = 0.25 * std::sin(2 * k_pi * t / 2.9) - 0.5 * tremor;
-  const double depth = std::min(1.3, 0.45 * t);                                                     // slowly through roof and pulp
-  pose.tip_mm.z = 0.15 - depth + 0.5 * std::max(0.0, std::sin(2 * k_pi * t / 3.7) - 0.8) + tremor;  // now and then out
+  const double depth = std::min(1.3, 0.45 * t);  // slowly through roof and pulp
+  pose.tip_mm.z = 0.15 - depth + 0.5 * std::max(0.0, std::sin(2 * k_pi * t / 3.7) - 0.8) +
+                  tremor;  // now and then out
   const double tilt = 0.1 * std::sin(2 * k_pi * t / 5.0);
   pose.rotation = normalized(Quat{1.0, tilt, 0.3 * tilt, 0.0});
   const double pedal = tick % 1700 < 1500 ? 0.9 : 0.0;
@@ -98,8 +102,10 @@ std::string make_closed_session(const std::string& path, std::int64_t ticks) {
 void tamper(const std::string& path, const std::string& sql) {
   sqlite3* db = nullptr;
   char* why = nullptr;
-  const bool done = sqlite3_open_v2(path.c_str(), &db, SQLITE_OPEN_READWRITE, nullptr) == SQLITE_OK &&
-                    sqlite3_exec(db, sql.c_str(), nullptr, nullptr, &why) == SQLITE_OK && sqlite3_total_changes(db) > 0;
+  const bool done =
+      sqlite3_open_v2(path.c_str(), &db, SQLITE_OPEN_READWRITE, nullptr) == SQLITE_OK &&
+      sqlite3_exec(db, sql.c_str(), nullptr, nullptr, &why) == SQLITE_OK &&
+      sqlite3_total_changes(db) > 0;
   const std::string reason = why != nullptr ? why : "nothing changed";
   sqlite3_free(why);
   sqlite3_close(db);

@@ -1,5 +1,5 @@
-// What the session tests share: a small block of a tooth, a motion that drills it through to the pulp, and
-// a private folder with a station key of its own.
+// What the session tests share: a small block of a tooth, a motion that drills it through to the
+// pulp, and a private folder with a station key of its own.
 #pragma once
 
 #include <stdlib.h>
@@ -21,9 +21,11 @@ struct Folder : testing_basics::Folder {
 
 /// 2.2 x 2.2 x 2.0 mm, leaf 0.05 mm, top at z = 0: enamel 0.3, dentin 0.3, pulp 0.4, dentin 1.0 mm.
 [[nodiscard]] Tooth block_tooth();
-/// The block, round-1.0, the paper's force model with `tau_s` shortened so that seconds of test drill through.
+/// The block, round-1.0, the paper's force model with `tau_s` shortened so that seconds of test
+/// drill through.
 [[nodiscard]] SessionSetup block_setup();
-/// Plunge, slide and withdraw, with tremor; the pedal is released now and then. A function of the tick alone.
+/// Plunge, slide and withdraw, with tremor; the pedal is released now and then. A function of the
+/// tick alone.
 [[nodiscard]] TickInput motion_at(std::int64_t tick);
 
 /// Simulates ticks first..first+ticks-1 of `motion_at` and records them.

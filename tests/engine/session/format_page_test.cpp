@@ -1,4 +1,5 @@
-// The page that specifies the recording's file says what the program writes: its tables to the letter, and the frame of a chunk without ticks.
+// The page that specifies the recording's file says what the program writes: its tables to the
+// letter, and the frame of a chunk without ticks.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -12,13 +13,17 @@
 namespace cavum {
 namespace {
 
-std::string page_of_sessions() { return read_text_file(std::string(CAVUM_SOURCE_DIR) + "/docs/formats/session.md"); }
+std::string page_of_sessions() {
+  return read_text_file(std::string(CAVUM_SOURCE_DIR) + "/docs/formats/session.md");
+}
 
 TEST(SessionFormatPage, HoldsTheTablesToTheLetter) {
   std::string all = "```sql\n";
   for (const char* table : k_session_schema) all += std::string(table) + ";\n";
   EXPECT_NE(page_of_sessions().find(all + "```\n"), std::string::npos) << all;
-  EXPECT_NE(page_of_sessions().find("`user_version` " + std::to_string(k_session_format) + " (this format)"), std::string::npos);
+  EXPECT_NE(page_of_sessions().find("`user_version` " + std::to_string(k_session_format) +
+                                    " (this format)"),
+            std::string::npos);
 }
 
 TEST(SessionFormatPage, NamesTheFrameOfAChunkWithoutTicks) {

@@ -1,4 +1,5 @@
-// The lines of Python on the page of the recording's format read the forces of a session, tick by tick, as the program does.
+// The lines of Python on the page of the recording's format read the forces of a session, tick by
+// tick, as the program does.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -12,15 +13,23 @@ namespace cavum {
 namespace {
 
 TEST(PythonReader, ShownOnTheFormatsPageReadsTheForces) {
-  if (std::system("/usr/bin/python3 -c 'import zstandard' 2>/dev/null") != 0) GTEST_SKIP() << "python3-zstandard is not installed";
+  if (std::system("/usr/bin/python3 -c 'import zstandard' 2>/dev/null") != 0)
+    GTEST_SKIP() << "python3-zstandard is not installed";
   const test::Folder folder;
-  const std::string page = read_text_file(std::string(CAVUM_SOURCE_DIR) + "/docs/formats/session.md"), begin = "```python\n";
+  const std::string page =
+                        read_text_file(std::string(CAVUM_SOURCE_DIR) + "/docs/formats/session.md"),
+                    begin = "```python\n";
   const auto from = page.find(begin);
   ASSERT_NE(from, std::string::npos);
-  write_text_file(folder.file("read.py"), page.substr(from + begin.size(), page.find("```", from + begin.size()) - from - begin.size()));
+  write_text_file(folder.file("read.py"),
+                  page.substr(from + begin.size(),
+                              page.find("```", from + begin.size()) - from - begin.size()));
   const std::string path = folder.file("exam.cavum");
   test::make_closed_session(path, 2600);
-  ASSERT_EQ(std::system(("/usr/bin/python3 " + folder.file("read.py") + " " + path + " >" + folder.file("forces")).c_str()), 0);
+  ASSERT_EQ(std::system(("/usr/bin/python3 " + folder.file("read.py") + " " + path + " >" +
+                         folder.file("forces"))
+                            .c_str()),
+            0);
 
   std::istringstream lines(read_text_file(folder.file("forces")));
   const SessionReader session(path);

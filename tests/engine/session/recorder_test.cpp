@@ -40,7 +40,8 @@ TEST(Session, ReadsBackEverythingThatWasRecorded) {
       records.push_back(make_tick_record(step(simulation.model, simulation.state, inputs.back())));
       for (const auto& leaf : simulation.state.removed) removed.push_back({tick, leaf});
       if (tick == 1234) recorder.add_event(tick, StepCompleted{2});
-      recorder.append(inputs.back(), records.back(), simulation.state.removed, state_hash(simulation.state));
+      recorder.append(inputs.back(), records.back(), simulation.state.removed,
+                      state_hash(simulation.state));
     }
     tooth = save_tooth(drilled_tooth(simulation));
     recorder.close(tooth, result);
@@ -56,7 +57,8 @@ TEST(Session, ReadsBackEverythingThatWasRecorded) {
   EXPECT_EQ(session.records(), records);
   const auto read = session.removed();
   ASSERT_EQ(read.size(), removed.size());
-  for (std::size_t i = 0; i < read.size(); ++i) ASSERT_TRUE(read[i].tick == removed[i].tick && read[i].leaf == removed[i].leaf) << i;
+  for (std::size_t i = 0; i < read.size(); ++i)
+    ASSERT_TRUE(read[i].tick == removed[i].tick && read[i].leaf == removed[i].leaf) << i;
   EXPECT_EQ(session.chunks().size(), 4u);
   EXPECT_EQ(session.chunks().back().ticks, 300);
   EXPECT_EQ(session.events(), (std::vector<TimedEvent>{{1234, StepCompleted{2}}}));
@@ -83,8 +85,9 @@ TEST(Session, WhatAKilledBeginningLeftBehindGoesWithTheNextOne) {
   if (child == 0) ::_exit(0);
   ASSERT_EQ(::waitpid(child, nullptr, 0), child);  // nobody has this number any more
   const std::string dead = std::to_string(child), alive = std::to_string(::getppid());
-  for (const std::string& name : {path + ".new-" + dead, path + ".new-" + dead + "-journal", path + ".new-" + alive, path + ".new-x",
-                                  path + ".new-" + dead + ".bak", folder.file("other.cavum.new-" + dead)})
+  for (const std::string& name :
+       {path + ".new-" + dead, path + ".new-" + dead + "-journal", path + ".new-" + alive,
+        path + ".new-x", path + ".new-" + dead + ".bak", folder.file("other.cavum.new-" + dead)})
     write_text_file(name, "half a session");
   static_cast<void>(Recorder::create(path, test::block_setup()));
   std::set<std::string> left;
@@ -93,7 +96,8 @@ TEST(Session, WhatAKilledBeginningLeftBehindGoesWithTheNextOne) {
     if (name.find(".new-") != std::string::npos) left.insert(name);
   }
   EXPECT_EQ(left,
-            (std::set<std::string>{"exam.cavum.new-" + alive, "exam.cavum.new-x", "exam.cavum.new-" + dead + ".bak", "other.cavum.new-" + dead}));
+            (std::set<std::string>{"exam.cavum.new-" + alive, "exam.cavum.new-x",
+                                   "exam.cavum.new-" + dead + ".bak", "other.cavum.new-" + dead}));
 }
 
 TEST(Session, ReplaysBitForBit) {
@@ -119,7 +123,8 @@ TEST(Session, ReadingAndVerifyingChangeNothingOnDisk) {
   (void)verify_session(path);
   EXPECT_EQ(read_file(path), before);
   EXPECT_EQ(std::filesystem::last_write_time(path), written);
-  for (const char* suffix : {"-wal", "-shm", "-journal"}) EXPECT_FALSE(std::filesystem::exists(path + suffix)) << suffix;
+  for (const char* suffix : {"-wal", "-shm", "-journal"})
+    EXPECT_FALSE(std::filesystem::exists(path + suffix)) << suffix;
 }
 
 TEST(Session, CanBeReadWhileItIsRecorded) {
@@ -152,10 +157,12 @@ TEST(Session, NeverOverwritesAnExistingFile) {
 
 TEST(Session, RefusesWhatItCannotRecord) {
   const Folder folder;
-  EXPECT_THROW((void)Recorder::create(folder.file("no/such/folder.cavum"), test::block_setup()), Error);
+  EXPECT_THROW((void)Recorder::create(folder.file("no/such/folder.cavum"), test::block_setup()),
+               Error);
   SessionSetup setup = test::block_setup();
   setup.tooth.clear();
-  EXPECT_EQ(code_of([&] { (void)Recorder::create(folder.file("a.cavum"), setup); }), FileError::missing);
+  EXPECT_EQ(code_of([&] { (void)Recorder::create(folder.file("a.cavum"), setup); }),
+            FileError::missing);
   Recorder recorder = Recorder::create(folder.file("b.cavum"), test::block_setup());
   TickRecord record;
   record.removed = 2;
@@ -173,10 +180,11 @@ TEST(Session, EndedWithoutClosingResumesAndVerifies) {
     test::drill(simulation, recorder, 0, 2300);
   }  // the exam fell over; the recorder wrote what it had
   std::int64_t visited = 0;
-  ResumedSession exam = resume_session(path, [&](std::int64_t tick, const TickInput& input, const TickOutput&, const ServoState&) {
-    EXPECT_EQ(tick, visited++);
-    EXPECT_EQ(input, test::motion_at(tick));
-  });
+  ResumedSession exam = resume_session(
+      path, [&](std::int64_t tick, const TickInput& input, const TickOutput&, const ServoState&) {
+        EXPECT_EQ(tick, visited++);
+        EXPECT_EQ(input, test::motion_at(tick));
+      });
   EXPECT_EQ(visited, 2300);
   EXPECT_EQ(exam.ticks, 2300);
   EXPECT_THROW((void)resume_session(path), DatabaseError) << "it is held";
@@ -217,7 +225,8 @@ TEST(Session, FilesThatAreNoSessionAreErrorsNotReports) {
     Database other = Database::open(folder.file("other.cavum"), true);
     other.run("CREATE TABLE music (title TEXT); INSERT INTO music VALUES ('x')");
   }
-  EXPECT_EQ(code_of([&] { (void)verify_session(folder.file("other.cavum")); }), SessionError::not_a_session);
+  EXPECT_EQ(code_of([&] { (void)verify_session(folder.file("other.cavum")); }),
+            SessionError::not_a_session);
 }
 
 TEST(StationKey, IsMadeOnceForItsUserAlone) {
@@ -226,13 +235,16 @@ TEST(StationKey, IsMadeOnceForItsUserAlone) {
   const SigningKey first = load_station_key(path), again = load_station_key(path);
   EXPECT_EQ(first.public_key, again.public_key);
   EXPECT_NE(first.public_key, load_station_key(folder.file("other/station.key")).public_key);
-  EXPECT_EQ(std::filesystem::status(path).permissions(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  EXPECT_EQ(std::filesystem::status(path).permissions(),
+            std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
   const Bytes message{1, 2, 3};
   EXPECT_TRUE(is_signed_by(first.public_key, message, first.sign(message)));
   EXPECT_FALSE(is_signed_by(first.public_key, Bytes{1, 2, 4}, first.sign(message)));
-  std::filesystem::permissions(path, std::filesystem::perms::group_read, std::filesystem::perm_options::add);
+  std::filesystem::permissions(path, std::filesystem::perms::group_read,
+                               std::filesystem::perm_options::add);
   EXPECT_THROW((void)load_station_key(path), Error);
-  std::filesystem::permissions(path, std::filesystem::perms::group_read, std::filesystem::perm_options::remove);
+  std::filesystem::permissions(path, std::filesystem::perms::group_read,
+                               std::filesystem::perm_options::remove);
   std::filesystem::resize_file(path, 20);
   EXPECT_THROW((void)load_station_key(path), Error);
 }
@@ -245,7 +257,9 @@ TEST(StationKey, MadeByManyAtOnceIsOne) {
   for (auto& key : keys) threads.emplace_back([&key, &path] { key = load_station_key(path); });
   for (auto& t : threads) t.join();
   for (const auto& key : keys) EXPECT_EQ(key.public_key, keys[0].public_key);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.file("home")), std::filesystem::directory_iterator()), 1)
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.file("home")),
+                          std::filesystem::directory_iterator()),
+            1)
       << "nothing is left over";
 }
 

@@ -29,15 +29,18 @@ struct Live {
   RealTimeReport servo_report;
 
   explicit Live(FaultyDevice::Fault fault)
-      : device([](double t_s) { return test::motion_at(std::llround(t_s * 1000)).pose(); }, 0.9, std::move(fault)) {}
+      : device([](double t_s) { return test::motion_at(std::llround(t_s * 1000)).pose(); }, 0.9,
+               std::move(fault)) {}
 
   /// Runs `ticks`, leaves the session open. `before_writing` delays the writer.
-  void run(const std::string& path, std::int64_t ticks, std::size_t ring = 1u << 15, int before_writing_ms = 0, SessionWriter::Watch watch = {}) {
+  void run(const std::string& path, std::int64_t ticks, std::size_t ring = 1u << 15,
+           int before_writing_ms = 0, SessionWriter::Watch watch = {}) {
     TickStream stream(ring);
     Recorder recorder = Recorder::create(path, setup);
     RealTimeOptions options;
     options.max_ticks = ticks;
-    RealTimeServo servo(simulation.model, simulation.state, device, stream, test::motion_at(0), options);
+    RealTimeServo servo(simulation.model, simulation.state, device, stream, test::motion_at(0),
+                        options);
     SessionWriter writer(stream, recorder, simulation.model.config.tick_s, std::move(watch));
     servo.start();
     wait_ms(before_writing_ms);
@@ -80,12 +83,13 @@ TEST(SessionWriter, AQuietRunIsRecordedTickByTickAndVerifies) {
   const std::string path = folder.file("live.cavum");
   Live live({});
   std::int64_t watched = 0, watched_leaves = 0;
-  live.run(path, 1500, 1u << 15, 0, [&](const ServoTick& tick, std::span<const RemovedLeaf> removed) {
-    EXPECT_EQ(tick.tick, watched++);
-    EXPECT_EQ(tick.output.removed_count, removed.size());
-    watched_leaves += static_cast<std::int64_t>(removed.size());
-    return true;
-  });
+  live.run(path, 1500, 1u << 15, 0,
+           [&](const ServoTick& tick, std::span<const RemovedLeaf> removed) {
+             EXPECT_EQ(tick.tick, watched++);
+             EXPECT_EQ(tick.output.removed_count, removed.size());
+             watched_leaves += static_cast<std::int64_t>(removed.size());
+             return true;
+           });
   EXPECT_EQ(live.written.error, Message());
   EXPECT_EQ(live.written.ticks, 1500);
   EXPECT_EQ(watched, 1500);
@@ -160,7 +164,8 @@ TEST(SessionWriter, AStalledWriterLosesNoTickAndTheGapIsTold) {
   const std::string path = folder.file("stalled.cavum");
   Live live({});
   live.run(path, 600, 256, 400);
-  // On a machine that is held up itself some periods are given up as late before the stream is found full.
+  // On a machine that is held up itself some periods are given up as late before the stream is
+  // found full.
   EXPECT_GE(live.servo_report.skipped_full + live.servo_report.skipped_late, 50);
   EXPECT_GE(live.servo_report.skipped_full, 1);
   EXPECT_EQ(live.written.ticks, 600);

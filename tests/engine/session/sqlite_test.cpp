@@ -20,7 +20,8 @@ using namespace std::chrono_literals;
 using test::Folder;
 using namespace testing_basics;
 
-/// A process of its own that does something in a Database and tells with a byte when it holds it; ends when this goes.
+/// A process of its own that does something in a Database and tells with a byte when it holds it;
+/// ends when this goes.
 class OtherProcess {
  public:
   OtherProcess(const std::string& path, std::chrono::milliseconds holds_for) {
@@ -64,8 +65,10 @@ TEST(Database, IsItsUsersAloneWithItsLogAndFollowsNoPlantedLink) {
   Database db = Database::open(folder.file("a.db"), true);
   db.run("PRAGMA journal_mode = WAL; CREATE TABLE t (x)");
   ::umask(before);
-  for (const char* end : {"", "-wal", "-shm"}) EXPECT_EQ(mode_of(folder.file("a.db") + end), 0600u) << end;
-  EXPECT_EQ(code_of([&] { static_cast<void>(Database::open(folder.file("a.db"), true)); }), FileError::exists);
+  for (const char* end : {"", "-wal", "-shm"})
+    EXPECT_EQ(mode_of(folder.file("a.db") + end), 0600u) << end;
+  EXPECT_EQ(code_of([&] { static_cast<void>(Database::open(folder.file("a.db"), true)); }),
+            FileError::exists);
   std::filesystem::create_symlink(folder.file("victim"), folder.file("link"));
   EXPECT_THROW(static_cast<void>(Database::open(folder.file("link"), true)), Error);
   EXPECT_FALSE(std::filesystem::exists(folder.file("victim")));
@@ -95,7 +98,8 @@ class HeldDatabase : public ::testing::TestWithParam<const char*> {
 TEST_P(HeldDatabase, IsWaitedForWhenThereIsPatience) {
   const OtherProcess other(path_, 600ms);
   ASSERT_TRUE(other.began());
-  EXPECT_THROW(Database::open(path_, false).run("INSERT INTO t VALUES (2)"), DatabaseError) << "a recording waits 200 ms only";
+  EXPECT_THROW(Database::open(path_, false).run("INSERT INTO t VALUES (2)"), DatabaseError)
+      << "a recording waits 200 ms only";
   Database db = Database::open(path_, false, k_long_wait);
   EXPECT_NO_THROW(db.run("INSERT INTO t VALUES (2)"));
   EXPECT_EQ(db.integer("SELECT count(*) FROM t"), 2);
@@ -104,13 +108,17 @@ TEST_P(HeldDatabase, IsWaitedForWhenThereIsPatience) {
 TEST_P(HeldDatabase, NamesWhoHoldsIt) {
   const OtherProcess other(path_, 20s);
   ASSERT_TRUE(other.began());
-  const auto error = thrown_by([&] { Database::open(path_, false).run("INSERT INTO t VALUES (2)"); });
+  const auto error =
+      thrown_by([&] { Database::open(path_, false).run("INSERT INTO t VALUES (2)"); });
   EXPECT_EQ(place_of(error), path_);
-  if (read_text_file("/proc/locks").find(" " + std::to_string(other.id()) + " ") == std::string::npos) return;  // a system that does not tell
+  if (read_text_file("/proc/locks").find(" " + std::to_string(other.id()) + " ") ==
+      std::string::npos)
+    return;  // a system that does not tell
   EXPECT_TRUE(tells(error, "session_test") && tells(error, other.id())) << error->what();
 }
 
-INSTANTIATE_TEST_SUITE_P(, HeldDatabase, ::testing::Values("DELETE", "WAL"), [](const auto& of) { return std::string(of.param); });
+INSTANTIATE_TEST_SUITE_P(, HeldDatabase, ::testing::Values("DELETE", "WAL"),
+                         [](const auto& of) { return std::string(of.param); });
 
 }  // namespace
 }  // namespace cavum

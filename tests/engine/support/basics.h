@@ -1,5 +1,5 @@
-// What tests of every part share: seeds that are drawn anew and printed, the text of an error, a folder that
-// goes away, and the files that ship.
+// What tests of every part share: seeds that are drawn anew and printed, the text of an error, a
+// folder that goes away, and the files that ship.
 #pragma once
 
 #include <stdlib.h>
@@ -28,7 +28,9 @@
 namespace cavum {
 
 /// For what a failed test prints.
-inline std::ostream& operator<<(std::ostream& out, const Message& message) { return out << english_text(message); }
+inline std::ostream& operator<<(std::ostream& out, const Message& message) {
+  return out << english_text(message);
+}
 
 }  // namespace cavum
 
@@ -38,17 +40,21 @@ namespace cavum::testing_basics {
 inline std::uint64_t drawn_seed(const char* test) {
   const char* fixed = std::getenv("CAVUM_TEST_SEED");
   std::random_device device;
-  const std::uint64_t seed = fixed != nullptr ? std::strtoull(fixed, nullptr, 10) : static_cast<std::uint64_t>(device()) << 32 | device();
+  const std::uint64_t seed = fixed != nullptr
+                                 ? std::strtoull(fixed, nullptr, 10)
+                                 : static_cast<std::uint64_t>(device()) << 32 | device();
   std::printf("%s: CAVUM_TEST_SEED=%llu\n", test, static_cast<unsigned long long>(seed));
   return seed;
 }
 
-/// Of a list whose members each take long: `most` of them, drawn by the seed, in their order; all with CAVUM_DEEP.
+/// Of a list whose members each take long: `most` of them, drawn by the seed, in their order; all
+/// with CAVUM_DEEP.
 template <class Member>
 std::vector<Member> some_of(std::vector<Member> list, std::size_t most, const char* test) {
   if (std::getenv("CAVUM_DEEP") != nullptr) return list;
   Random random(drawn_seed(test));
-  while (list.size() > most) list.erase(list.begin() + static_cast<std::ptrdiff_t>(random.below(list.size())));
+  while (list.size() > most)
+    list.erase(list.begin() + static_cast<std::ptrdiff_t>(random.below(list.size())));
   return list;
 }
 
@@ -63,32 +69,48 @@ std::optional<ErrorCode> code_of(const Action& action) {
   return {};
 }
 
-/// What a test may ask of a sentence besides its kind: whether a name, a place in a file, a word of data or a figure is among its values, at any
-/// depth.
+/// What a test may ask of a sentence besides its kind: whether a name, a place in a file, a word of
+/// data or a figure is among its values, at any depth.
 inline bool tells(const Message& message, const Value& wanted) {
   const auto in = [&wanted](const Value& v) {
     if (v == wanted) return true;
-    if (const auto* is = std::get_if<Vec3>(&v), *place = std::get_if<Vec3>(&wanted); is != nullptr && place != nullptr)
+    if (const auto* is = std::get_if<Vec3>(&v), *place = std::get_if<Vec3>(&wanted);
+        is != nullptr && place != nullptr)
       return length(*is - *place) < 2e-6;  // as a result holds it, to a millionth
-    if (const auto* place = std::get_if<FilePlace>(&v)) return wanted == Value(Name{place->file});
+    if (const auto* place = std::get_if<FileLocation>(&v))
+      return wanted == Value(Name{place->file});
     if (const auto* term = std::get_if<Term>(&v)) return wanted == Value(Name{term->english});
-    if (const auto* authored = std::get_if<Authored>(&v)) return wanted == Value(Name{authored->english});
-    if (const auto* is = std::get_if<Number>(&v), *number = std::get_if<Number>(&wanted); is != nullptr && number != nullptr)
+    if (const auto* authored = std::get_if<Authored>(&v))
+      return wanted == Value(Name{authored->english});
+    if (const auto* is = std::get_if<Number>(&v), *number = std::get_if<Number>(&wanted);
+        is != nullptr && number != nullptr)
       return std::fabs(is->value - number->value) < 2e-6;
     if (const auto* inner = std::get_if<Message>(&v)) return tells(*inner, wanted);
     const auto* list = std::get_if<List>(&v);
-    return list != nullptr && std::any_of(list->items.begin(), list->items.end(), [&](const Message& m) { return tells(m, wanted); });
+    return list != nullptr && std::any_of(list->items.begin(), list->items.end(),
+                                          [&](const Message& m) { return tells(m, wanted); });
   };
   return std::any_of(message.values().begin(), message.values().end(), in);
 }
-inline bool tells(const Message& message, const char* name) { return tells(message, Value(Name{name})); }
-inline bool tells(const Message& message, const std::string& name) { return tells(message, Value(Name{name})); }
-inline bool tells(const Message& message, int whole) { return tells(message, Value(std::int64_t{whole})); }
-inline bool tells(const Message& message, double number) { return tells(message, Value(as_number(number))); }
-inline bool tells(const Message& message, const Message& part) { return message == part || tells(message, Value(part)); }
+inline bool tells(const Message& message, const char* name) {
+  return tells(message, Value(Name{name}));
+}
+inline bool tells(const Message& message, const std::string& name) {
+  return tells(message, Value(Name{name}));
+}
+inline bool tells(const Message& message, int whole) {
+  return tells(message, Value(std::int64_t{whole}));
+}
+inline bool tells(const Message& message, double number) {
+  return tells(message, Value(as_number(number)));
+}
+inline bool tells(const Message& message, const Message& part) {
+  return message == part || tells(message, Value(part));
+}
 template <class Wanted>
 bool tells(const std::vector<Message>& messages, const Wanted& wanted) {
-  return std::any_of(messages.begin(), messages.end(), [&](const Message& m) { return tells(m, wanted); });
+  return std::any_of(messages.begin(), messages.end(),
+                     [&](const Message& m) { return tells(m, wanted); });
 }
 template <class Wanted>
 bool tells(const std::optional<Error>& error, const Wanted& wanted) {
@@ -98,7 +120,8 @@ bool tells(const std::optional<Error>& error, const Wanted& wanted) {
 inline std::vector<double> figures_in(const Message& message) {
   std::vector<double> all;
   for (const Value& v : message.values()) {
-    if (const auto* whole = std::get_if<std::int64_t>(&v)) all.push_back(static_cast<double>(*whole));
+    if (const auto* whole = std::get_if<std::int64_t>(&v))
+      all.push_back(static_cast<double>(*whole));
     if (const auto* number = std::get_if<Number>(&v)) all.push_back(number->value);
     std::vector<Message> inner;
     if (const auto* m = std::get_if<Message>(&v)) inner = {*m};
@@ -111,7 +134,8 @@ inline std::vector<double> figures_in(const Message& message) {
 /// All cells of several lines.
 inline std::vector<Message> cells_of(const Lines& lines) {
   std::vector<Message> all;
-  for (const Lines::Line& line : lines.all()) all.insert(all.end(), line.cells.begin(), line.cells.end());
+  for (const Lines::Line& line : lines.all())
+    all.insert(all.end(), line.cells.begin(), line.cells.end());
   return all;
 }
 template <class Wanted>
@@ -132,18 +156,28 @@ std::optional<Error> thrown_by(const Action& action) {
   }
   return {};
 }
-/// The file, line and column, or the name, that an error or a finding is about; empty for other places and for none.
+/// The file, line and column, or the name, that an error or a finding is about; empty for other
+/// places and for none.
 inline std::string place_of(const Message& where) {
-  return where.values().size() == 1 && std::string_view(where.english()) == "{}" ? english_text(where) : "";
+  return where.values().size() == 1 && std::string_view(where.english()) == "{}"
+             ? english_text(where)
+             : "";
 }
-inline std::string place_of(const std::optional<Error>& error) { return error ? place_of(error->where()) : ""; }
-inline std::optional<ErrorCode> code_of(const std::optional<Error>& problem) { return problem ? std::optional(problem->code()) : std::nullopt; }
-inline std::string text_of(const std::optional<Error>& problem) { return problem ? problem->what() : ""; }
+inline std::string place_of(const std::optional<Error>& error) {
+  return error ? place_of(error->where()) : "";
+}
+inline std::optional<ErrorCode> code_of(const std::optional<Error>& problem) {
+  return problem ? std::optional(problem->code()) : std::nullopt;
+}
+inline std::string text_of(const std::optional<Error>& problem) {
+  return problem ? problem->what() : "";
+}
 inline std::string text_of(const Message& message) { return english_text(message); }
 /// Of several, each on a line.
 template <class Found>
 requires(
-    requires(const Found& f) { text_of(f.what); } || requires(const Found& f) { f.message(); }) std::string text_of(const std::vector<Found>& all) {
+    requires(const Found& f) { text_of(f.what); } ||
+    requires(const Found& f) { f.message(); }) std::string text_of(const std::vector<Found>& all) {
   std::string text;
   for (const Found& f : all) {
     if constexpr (requires { f.what; })
@@ -185,8 +219,10 @@ inline std::vector<std::string> toml_names(const std::string& folder) {
 }
 
 /// Whether it comes true in time.
-inline bool comes_true(const std::function<bool()>& condition, std::chrono::milliseconds within = std::chrono::seconds(20)) {
-  for (const auto end = std::chrono::steady_clock::now() + within; std::chrono::steady_clock::now() < end;
+inline bool comes_true(const std::function<bool()>& condition,
+                       std::chrono::milliseconds within = std::chrono::seconds(20)) {
+  for (const auto end = std::chrono::steady_clock::now() + within;
+       std::chrono::steady_clock::now() < end;
        std::this_thread::sleep_for(std::chrono::milliseconds(1)))
     if (condition()) return true;
   return condition();

@@ -1,5 +1,5 @@
-// A device that does to the servo what real ones do: sleeps, falls silent, gives NaN, throws. It presses
-// steadily, and keeps what was sent to it.
+// A device that does to the servo what real ones do: sleeps, falls silent, gives NaN, throws. It
+// presses steadily, and keeps what was sent to it.
 #pragma once
 
 #include <atomic>
@@ -22,7 +22,8 @@ class FaultyDevice final : public ServoDevice {
     Vec3 force_n;
   };
 
-  FaultyDevice(std::function<Pose(double t_s)> path, double pedal, Fault fault) : path_(std::move(path)), pedal_(pedal), fault_(std::move(fault)) {
+  FaultyDevice(std::function<Pose(double t_s)> path, double pedal, Fault fault)
+      : path_(std::move(path)), pedal_(pedal), fault_(std::move(fault)) {
     sent.reserve(1 << 16);
   }
   [[nodiscard]] DeviceReading read(double elapsed_s) override {
@@ -47,7 +48,8 @@ class FaultyDevice final : public ServoDevice {
   std::vector<Sent> sent;  ///< servo thread; read after join
   std::int64_t reads = 0;
   std::atomic<bool> is_cut{false};
-  std::atomic<std::int64_t> sent_ns{0}, cut_after_ns{-1};  ///< when the force was first cut, after the last one sent
+  std::atomic<std::int64_t> sent_ns{0},
+      cut_after_ns{-1};  ///< when the force was first cut, after the last one sent
 
  private:
   std::function<Pose(double)> path_;

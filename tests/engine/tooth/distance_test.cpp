@@ -9,13 +9,16 @@
 namespace cavum {
 namespace {
 
-// Planes at any slope and offset, also a hair's breadth from a leaf's centre, where labels alone say least.
+// Planes at any slope and offset, also a hair's breadth from a leaf's centre, where labels alone
+// say least.
 TEST(SurfaceFromField, PlanesOfAnySlopeAreWithinOneMicrometre) {
-  Random random(testing_tooth::drawn_seed("SurfaceFromField.PlanesOfAnySlopeAreWithinOneMicrometre"));
+  Random random(
+      testing_tooth::drawn_seed("SurfaceFromField.PlanesOfAnySlopeAreWithinOneMicrometre"));
   for (int round = 0; round < 60; ++round) {
     Vec3 n = normalized({random.normal(), random.normal(), random.normal()});
     if (round % 6 == 0) n = {0, 0, 1};
-    const double offset = round % 12 == 0 ? 0.025 + random.uniform(-0.001, 0.001) : random.uniform(-0.05, 0.05);
+    const double offset =
+        round % 12 == 0 ? 0.025 + random.uniform(-0.001, 0.001) : random.uniform(-0.05, 0.05);
     TissueGrid grid;
     grid.allocate({30, 30, 30}, 0.05, {-0.75, -0.75, -0.75});
     std::vector<float> field(grid.count());
@@ -34,7 +37,8 @@ TEST(SurfaceFromField, PlanesOfAnySlopeAreWithinOneMicrometre) {
         for (std::int32_t x = 8; x < 22; ++x) {
           const double d = dot(n, grid.centre_mm({x, y, z})) - offset;
           if (std::fabs(d) < 0.099) {
-            ASSERT_NEAR(decode_distance(grid.distance[grid.index({x, y, z})]) * 0.05, d, 0.001) << "round " << round;
+            ASSERT_NEAR(decode_distance(grid.distance[grid.index({x, y, z})]) * 0.05, d, 0.001)
+                << "round " << round;
           }
         }
   }

@@ -23,7 +23,8 @@ TEST(Fill, ATwoRootedMolarLosesItsCavitiesAndNothingElse) {
   const auto before = molar.octree.count_leaves(), after = filled.octree.count_leaves();
   EXPECT_EQ(after[k_pulp], 0u);
   EXPECT_EQ(after[k_periodontium], 0u);
-  EXPECT_EQ(after[k_enamel] + after[k_dentin], before[k_enamel] + before[k_dentin] + before[k_pulp] + before[k_periodontium]);
+  EXPECT_EQ(after[k_enamel] + after[k_dentin],
+            before[k_enamel] + before[k_dentin] + before[k_pulp] + before[k_periodontium]);
   std::size_t far = 0;
   for (int z = 0; z < a.size.z; ++z)
     for (int y = 0; y < a.size.y; ++y)
@@ -53,7 +54,8 @@ TEST(Fill, OnlyWhatIsAskedForIsFilled) {
   const Tooth molar = load_tooth_file(data_path("teeth/lower_molar.cvt"));
   std::array<bool, 256> pulp{};
   pulp[k_pulp] = true;
-  const auto before = molar.octree.count_leaves(), after = filled_tooth(molar, pulp).octree.count_leaves();
+  const auto before = molar.octree.count_leaves(),
+             after = filled_tooth(molar, pulp).octree.count_leaves();
   EXPECT_EQ(after[k_pulp], 0u);
   EXPECT_EQ(after[k_periodontium], before[k_periodontium]);
   EXPECT_EQ(filled_tooth(molar, {}).octree.count_leaves(), before);

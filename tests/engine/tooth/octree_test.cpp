@@ -25,7 +25,8 @@ struct Capsule {
 };
 
 /// The same carve, leaf by leaf, without any tree.
-std::uint64_t carve_dense(TissueGrid& grid, const std::vector<Tissue>& tissues, const Capsule& shape) {
+std::uint64_t carve_dense(TissueGrid& grid, const std::vector<Tissue>& tissues,
+                          const Capsule& shape) {
   std::uint64_t removed = 0;
   for (std::int32_t z = 0; z < grid.size.z; ++z)
     for (std::int32_t y = 0; y < grid.size.y; ++y)
@@ -53,12 +54,17 @@ TEST(Octree, EqualsDenseGridAfterRandomCarves) {
     removed.reserve(100000);
     std::uint64_t expected = 0;
     for (int i = 0; i < 25; ++i) {
-      const auto point = [&] { return Vec3{random.uniform(-1.3, 1.3), random.uniform(-1.2, 1.2), random.uniform(-2.7, 0.3)}; };
+      const auto point = [&] {
+        return Vec3{random.uniform(-1.3, 1.3), random.uniform(-1.2, 1.2),
+                    random.uniform(-2.7, 0.3)};
+      };
       Capsule shape{point(), point(), random.uniform(0.05, 0.6)};
       if (random.below(2)) shape.b = shape.a;
       const double r = shape.radius_mm + 0.3;
-      const Vec3 low{std::min(shape.a.x, shape.b.x) - r, std::min(shape.a.y, shape.b.y) - r, std::min(shape.a.z, shape.b.z) - r};
-      const Vec3 high{std::max(shape.a.x, shape.b.x) + r, std::max(shape.a.y, shape.b.y) + r, std::max(shape.a.z, shape.b.z) + r};
+      const Vec3 low{std::min(shape.a.x, shape.b.x) - r, std::min(shape.a.y, shape.b.y) - r,
+                     std::min(shape.a.z, shape.b.z) - r};
+      const Vec3 high{std::max(shape.a.x, shape.b.x) + r, std::max(shape.a.y, shape.b.y) + r,
+                      std::max(shape.a.z, shape.b.z) + r};
       ASSERT_TRUE(tooth.octree.carve(low, high, shape, removed));
       expected += carve_dense(dense, tooth.tissues, shape);
       const TissueGrid now = tooth.octree.to_grid();
@@ -80,7 +86,8 @@ TEST(Octree, AnswersPointQueriesAsTheDenseGridDoes) {
   for (int i = 0; i < 20000; ++i) {
     const Vec3 p{random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-3, 1)};
     const IVec3 leaf = tooth.octree.leaf_at(p);
-    const auto expected = dense.inside(leaf) ? dense.tissue[dense.index(leaf)] : std::uint8_t{k_air};
+    const auto expected =
+        dense.inside(leaf) ? dense.tissue[dense.index(leaf)] : std::uint8_t{k_air};
     ASSERT_EQ(tooth.octree.tissue_at(p), expected);
     ASSERT_EQ(tooth.octree.tissue_at(p, cursor), expected);
     const auto code = dense.inside(leaf) ? int{dense.distance[dense.index(leaf)]} : k_distance_far;
@@ -122,16 +129,22 @@ TEST(Octree, MixesTheTissuesOfTheEightLeavesAroundAPlace) {
       if (std::fabs(p.z - z) >= 1) continue;
       for (std::int32_t y = -1; y <= dense.size.y; ++y) {
         if (std::fabs(p.y - y) >= 1) continue;
-        for (std::int32_t x = -1; x <= dense.size.x; ++x) {  // the hat function of each leaf's centre
+        for (std::int32_t x = -1; x <= dense.size.x;
+             ++x) {  // the hat function of each leaf's centre
           if (std::fabs(p.x - x) >= 1) continue;
-          const double share = (1 - std::fabs(p.x - x)) * (1 - std::fabs(p.y - y)) * (1 - std::fabs(p.z - z));
-          expected[dense.inside({x, y, z}) ? dense.tissue[dense.index({x, y, z})] : std::uint8_t{k_air}] += share;
+          const double share =
+              (1 - std::fabs(p.x - x)) * (1 - std::fabs(p.y - y)) * (1 - std::fabs(p.z - z));
+          expected[dense.inside({x, y, z}) ? dense.tissue[dense.index({x, y, z})]
+                                           : std::uint8_t{k_air}] += share;
         }
       }
     }
     const TissueMix mix = tooth.octree.mix(at, cursor);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(mix.count); ++k) seen[mix.label[k]] += mix.share[k];
-    if (p.x < -1 || p.y < -1 || p.z < -1 || p.x > dense.size.x || p.y > dense.size.y || p.z > dense.size.z) continue;  // all air, all of it
+    for (std::size_t k = 0; k < static_cast<std::size_t>(mix.count); ++k)
+      seen[mix.label[k]] += mix.share[k];
+    if (p.x < -1 || p.y < -1 || p.z < -1 || p.x > dense.size.x || p.y > dense.size.y ||
+        p.z > dense.size.z)
+      continue;  // all air, all of it
     for (std::size_t t = 0; t < 256; ++t) ASSERT_NEAR(seen[t], expected[t], 1e-9) << "tissue " << t;
   }
 }
@@ -146,7 +159,8 @@ TEST(Octree, DamagedBytesNeverCrash) {
   for (int i = 0; i < 4000; ++i) {
     Bytes bytes = out.bytes();
     for (std::uint64_t n = 1 + random.below(3); n > 0; --n)
-      bytes[random.below(i % 2 ? 200 : bytes.size())] ^= static_cast<std::uint8_t>(1u << random.below(8));
+      bytes[random.below(i % 2 ? 200 : bytes.size())] ^=
+          static_cast<std::uint8_t>(1u << random.below(8));
     if (i % 5 == 0) bytes.resize(random.below(bytes.size()));
     ByteReader in(bytes, "damaged");
     try {

@@ -22,7 +22,8 @@ TEST(SurfaceMesh, EveryTissueOfTheMolarIsClosedAndHoldsItsVolume) {
     const TriangleMesh mesh = surface_mesh(tooth, name);
     EXPECT_TRUE(testing_tooth::is_closed_and_oriented(mesh)) << name;
     const auto count = tooth.octree.count_leaves();
-    const auto leaves = std::string(name) == "solid" ? count[k_enamel] + count[k_dentin] : count[tooth.tissue_id(name)];
+    const auto leaves = std::string(name) == "solid" ? count[k_enamel] + count[k_dentin]
+                                                     : count[tooth.tissue_id(name)];
     const double volume = static_cast<double>(leaves) * tooth.octree.leaf_volume_mm3();
     EXPECT_NEAR(signed_volume_mm3(mesh), volume, 0.02 * volume) << name;
   }
@@ -35,8 +36,10 @@ TEST(SurfaceMesh, RandomLabelsStillGiveAClosedSurface) {
     Tooth tooth;
     TissueGrid grid;
     grid.allocate({14, 13, 12}, 0.1, {});
-    for (std::size_t i = 0; i < grid.count(); ++i) grid.tissue[i] = static_cast<std::uint8_t>(random.below(5));
-    for (auto& d : grid.distance) d = static_cast<std::int8_t>(static_cast<int>(random.below(255)) - 127);
+    for (std::size_t i = 0; i < grid.count(); ++i)
+      grid.tissue[i] = static_cast<std::uint8_t>(random.below(5));
+    for (auto& d : grid.distance)
+      d = static_cast<std::int8_t>(static_cast<int>(random.below(255)) - 127);
     grid.make_consistent(tooth.tissues);
     tooth.octree = Octree(grid, tooth.tissues);
     for (const char* name : {"enamel", "dentin", "pulp", "periodontium", "solid"}) {

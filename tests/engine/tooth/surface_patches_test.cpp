@@ -32,11 +32,13 @@ TriangleMesh merged(const SurfacePatches& patches) {
     for (const PatchVertex& v : patches.patch(p).vertices) {
       std::array<std::uint32_t, 3> bits;
       std::memcpy(bits.data(), v.position_mm.data(), sizeof bits);
-      const auto [at, fresh] = known.emplace(bits, static_cast<std::uint32_t>(mesh.vertices_mm.size()));
+      const auto [at, fresh] =
+          known.emplace(bits, static_cast<std::uint32_t>(mesh.vertices_mm.size()));
       if (fresh) mesh.vertices_mm.push_back({v.position_mm[0], v.position_mm[1], v.position_mm[2]});
       number.push_back(at->second);
     }
-    for (const auto& t : patches.patch(p).triangles) mesh.triangles.push_back({number.at(t[0]), number.at(t[1]), number.at(t[2])});
+    for (const auto& t : patches.patch(p).triangles)
+      mesh.triangles.push_back({number.at(t[0]), number.at(t[1]), number.at(t[2])});
   }
   return mesh;
 }
@@ -44,7 +46,8 @@ TriangleMesh merged(const SurfacePatches& patches) {
 double area_mm2(const TriangleMesh& mesh) {
   double sum = 0.0;
   for (const auto& t : mesh.triangles)
-    sum += 0.5 * length(cross(mesh.vertices_mm[t[1]] - mesh.vertices_mm[t[0]], mesh.vertices_mm[t[2]] - mesh.vertices_mm[t[0]]));
+    sum += 0.5 * length(cross(mesh.vertices_mm[t[1]] - mesh.vertices_mm[t[0]],
+                              mesh.vertices_mm[t[2]] - mesh.vertices_mm[t[0]]));
   return sum;
 }
 
@@ -74,7 +77,8 @@ std::size_t cut(Octree& tree, const Ball& ball) {
   std::vector<RemovedLeaf> removed;
   removed.reserve(1 << 17);
   const double r = ball.radius_mm + 3 * tree.leaf_mm();
-  EXPECT_TRUE(tree.carve(ball.centre_mm - Vec3{r, r, r}, ball.centre_mm + Vec3{r, r, r}, ball, removed));
+  EXPECT_TRUE(
+      tree.carve(ball.centre_mm - Vec3{r, r, r}, ball.centre_mm + Vec3{r, r, r}, ball, removed));
   return removed.size();
 }
 
@@ -97,16 +101,19 @@ Tooth ball_of_dentin(double radius_mm) {
   return tooth;
 }
 
-// Random leaves have every awkward contact there is: edges, corners, holes; and they touch the border of the tooth's box and of the patches.
+// Random leaves have every awkward contact there is: edges, corners, holes; and they touch the
+// border of the tooth's box and of the patches.
 TEST(SurfacePatches, AreClosedWhateverTheLeavesHold) {
   Random random(testing_tooth::drawn_seed("SurfacePatches.AreClosedWhateverTheLeavesHold"));
-  for (const IVec3 size : {IVec3{14, 13, 12}, IVec3{16, 33, 15}, IVec3{31, 17, 32}, IVec3{1, 1, 1}}) {
+  for (const IVec3 size :
+       {IVec3{14, 13, 12}, IVec3{16, 33, 15}, IVec3{31, 17, 32}, IVec3{1, 1, 1}}) {
     Tooth tooth;
     TissueGrid grid;
     grid.allocate(size, 0.1, {-0.7, 20.0, -9.1});
     for (auto& t : grid.tissue) t = static_cast<std::uint8_t>(random.below(5));
     grid.tissue[0] = k_enamel;
-    for (auto& d : grid.distance) d = static_cast<std::int8_t>(static_cast<int>(random.below(255)) - 127);
+    for (auto& d : grid.distance)
+      d = static_cast<std::int8_t>(static_cast<int>(random.below(255)) - 127);
     grid.make_consistent(tooth.tissues);
     tooth.octree = Octree(grid, tooth.tissues);
     const LeafBlocks leaves(tooth.octree);
@@ -141,8 +148,10 @@ TEST(SurfacePatches, ABallHasItsRadiusNormalsAndVolume) {
       ASSERT_EQ(v.beside, k_air);
     }
   EXPECT_GT(worst_cosine, std::cos(2.0 * k_pi / 180.0));
-  std::printf("normals of a ball of %.3f mm: within %.2f degrees\n", radius, std::acos(worst_cosine) * 180.0 / k_pi);
-  EXPECT_NEAR(signed_volume_mm3(merged(patches)), 4.0 / 3.0 * k_pi * radius * radius * radius, 0.01);
+  std::printf("normals of a ball of %.3f mm: within %.2f degrees\n", radius,
+              std::acos(worst_cosine) * 180.0 / k_pi);
+  EXPECT_NEAR(signed_volume_mm3(merged(patches)), 4.0 / 3.0 * k_pi * radius * radius * radius,
+              0.01);
 }
 
 TEST(SurfacePatches, ACutBallIsMissedByItsVolume) {
@@ -150,7 +159,9 @@ TEST(SurfacePatches, ACutBallIsMissedByItsVolume) {
   tooth.octree.reserve_edits(4000);
   LeafBlocks leaves(tooth.octree);
   SurfacePatches patches(leaves);
-  const double chamfers_mm3 = 36.0 * 0.5 * 0.025 * 0.025;  // 36 mm of edges, cut off between the outermost centres and the faces
+  const double chamfers_mm3 =
+      36.0 * 0.5 * 0.025 *
+      0.025;  // 36 mm of edges, cut off between the outermost centres and the faces
   EXPECT_NEAR(signed_volume_mm3(merged(patches)), 27.0 - chamfers_mm3, 2e-4);
   const double radius = 0.43;
   EXPECT_GT(cut(tooth.octree, {{0.01, 0.02, -1.53}, radius}), 0u);
@@ -159,12 +170,14 @@ TEST(SurfacePatches, ACutBallIsMissedByItsVolume) {
   const double before = signed_volume_mm3(merged(patches));
   leaves.take(tooth.octree, changed);
   patches.update(leaves, changed, touched);
-  EXPECT_NEAR(before - signed_volume_mm3(merged(patches)), 4.0 / 3.0 * k_pi * radius * radius * radius, 0.005);
+  EXPECT_NEAR(before - signed_volume_mm3(merged(patches)),
+              4.0 / 3.0 * k_pi * radius * radius * radius, 0.005);
 }
 
 // A head wanders through the molar, down into the pulp and out again, and every step is looked at.
 TEST(SurfacePatches, StayClosedAndEqualToAFreshBuildThroughARandomDrilling) {
-  Random random(testing_tooth::drawn_seed("SurfacePatches.StayClosedAndEqualToAFreshBuildThroughARandomDrilling"));
+  Random random(testing_tooth::drawn_seed(
+      "SurfacePatches.StayClosedAndEqualToAFreshBuildThroughARandomDrilling"));
   MolarShape shape;
   shape.leaf_mm = 0.2;
   Tooth tooth = make_molar(shape);
@@ -172,7 +185,8 @@ TEST(SurfacePatches, StayClosedAndEqualToAFreshBuildThroughARandomDrilling) {
   tree.reserve_edits(20000);
   const auto names = testing_engine::bur_names();
   LeafBlocks leaves(tree);
-  constexpr std::array<std::uint8_t, 4> k_tissues{SurfacePatches::k_hard_tissue, k_enamel, k_dentin, k_pulp};
+  constexpr std::array<std::uint8_t, 4> k_tissues{SurfacePatches::k_hard_tissue, k_enamel, k_dentin,
+                                                  k_pulp};
   std::vector<SurfacePatches> surfaces;
   for (const auto t : k_tissues) surfaces.emplace_back(leaves, t);
   std::vector<RemovedLeaf> removed;
@@ -187,7 +201,8 @@ TEST(SurfacePatches, StayClosedAndEqualToAFreshBuildThroughARandomDrilling) {
     if (step % 8 == 7) {
       bur = testing_engine::shipped_bur(names[random.below(names.size())]);
       tip = {random.uniform(-4, 4), random.uniform(-4, 4), random.uniform(-4, 1)};
-      turned = rotation(normalized(Quat{1, random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), 0}));
+      turned =
+          rotation(normalized(Quat{1, random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), 0}));
       carving = {};
     }
     tip += Vec3{random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), random.uniform(-0.5, 0.05)};
@@ -208,18 +223,24 @@ TEST(SurfacePatches, StayClosedAndEqualToAFreshBuildThroughARandomDrilling) {
       for (std::uint32_t p = 0; p < before.size(); ++p)
         if (!(before[p] == surfaces[s].patch(p))) differ.push_back(p);
       ASSERT_EQ(touched, differ) << "step " << step;
-      ASSERT_TRUE(equal(surfaces[s], SurfacePatches(fresh_leaves, k_tissues[s]))) << "step " << step;
+      ASSERT_TRUE(equal(surfaces[s], SurfacePatches(fresh_leaves, k_tissues[s])))
+          << "step " << step;
       const TriangleMesh mesh = merged(surfaces[s]);
-      ASSERT_TRUE(testing_tooth::is_closed_and_oriented(mesh)) << "step " << step << ", tissue " << int{k_tissues[s]};
+      ASSERT_TRUE(testing_tooth::is_closed_and_oriented(mesh))
+          << "step " << step << ", tissue " << int{k_tissues[s]};
       const auto leaves_inside = s == 0 ? count[k_enamel] + count[k_dentin] : count[k_tissues[s]];
       // half a leaf on the border is what counting leaves can be off by; it is nowhere near it
-      ASSERT_NEAR(signed_volume_mm3(mesh), static_cast<double>(leaves_inside) * tree.leaf_volume_mm3(), 0.1 * area_mm2(mesh) * tree.leaf_mm());
+      ASSERT_NEAR(signed_volume_mm3(mesh),
+                  static_cast<double>(leaves_inside) * tree.leaf_volume_mm3(),
+                  0.1 * area_mm2(mesh) * tree.leaf_mm());
     }
   }
   for (std::size_t p = 0; p < surfaces[0].count(); ++p)
-    for (const PatchVertex& v : surfaces[0].patch(p).vertices) wall_of_pulp = wall_of_pulp || v.beside == k_pulp;
+    for (const PatchVertex& v : surfaces[0].patch(p).vertices)
+      wall_of_pulp = wall_of_pulp || v.beside == k_pulp;
   EXPECT_TRUE(wall_of_pulp);
-  std::printf("%zu leaves removed; %zu steps changed distances alone\n", all_removed, without_removed);
+  std::printf("%zu leaves removed; %zu steps changed distances alone\n", all_removed,
+              without_removed);
   EXPECT_GT(all_removed, 100u);
 }
 
@@ -298,7 +319,8 @@ TEST(SurfacePatches, GoBackToAnEarlierMoment) {
 
 TEST(SurfacePatches, TellTissuesApartWhereTheyMeet) {
   const double enamel_mm = 0.83;
-  const Tooth tooth = make_block({3, 3, 2}, {{"enamel", enamel_mm}, {"dentin", 2 - enamel_mm}}, 0.05);
+  const Tooth tooth =
+      make_block({3, 3, 2}, {{"enamel", enamel_mm}, {"dentin", 2 - enamel_mm}}, 0.05);
   const LeafBlocks leaves(tooth.octree);
   const SurfacePatches hard(leaves), dentin(leaves, k_dentin);
   for (std::size_t p = 0; p < hard.count(); ++p)
@@ -311,7 +333,8 @@ TEST(SurfacePatches, TellTissuesApartWhereTheyMeet) {
   int inner = 0;
   for (std::size_t p = 0; p < dentin.count(); ++p)
     for (const PatchVertex& v : dentin.patch(p).vertices)
-      if (v.beside == k_enamel && std::fabs(v.position_mm[0]) < 1.3 && std::fabs(v.position_mm[1]) < 1.3) {
+      if (v.beside == k_enamel && std::fabs(v.position_mm[0]) < 1.3 &&
+          std::fabs(v.position_mm[1]) < 1.3) {
         ASSERT_NEAR(v.position_mm[2], -enamel_mm, 0.026);  // labels know it to half a leaf
         ASSERT_GT(v.normal[2], 32700);
         ++inner;
@@ -321,13 +344,15 @@ TEST(SurfacePatches, TellTissuesApartWhereTheyMeet) {
 
 TEST(LeafBlocks, HoldEveryLeafAfterRandomCuts) {
   Random random(testing_tooth::drawn_seed("LeafBlocks.HoldEveryLeafAfterRandomCuts"));
-  Tooth tooth = make_block({2.13, 1.9, 2.4}, {{"enamel", 0.7}, {"dentin", 0.8}, {"pulp", 0.5}, {"lesion", 0.4}}, 0.1);
+  Tooth tooth = make_block({2.13, 1.9, 2.4},
+                           {{"enamel", 0.7}, {"dentin", 0.8}, {"pulp", 0.5}, {"lesion", 0.4}}, 0.1);
   Octree& tree = tooth.octree;
   tree.reserve_edits(20000);
   LeafBlocks leaves(tree);
   std::vector<LeafBounds> changed;
   for (int i = 0; i < 20; ++i) {
-    cut(tree, {{random.uniform(-1.3, 1.3), random.uniform(-1.2, 1.2), random.uniform(-2.7, 0.3)}, random.uniform(0.05, 0.6)});
+    cut(tree, {{random.uniform(-1.3, 1.3), random.uniform(-1.2, 1.2), random.uniform(-2.7, 0.3)},
+               random.uniform(0.05, 0.6)});
     if (random.below(2)) leaves.take(tree, changed);
   }
   leaves.take(tree, changed);

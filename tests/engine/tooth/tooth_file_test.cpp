@@ -44,18 +44,22 @@ TEST(ToothFile, WhichToothItIsAndWhatItWasMadeFromAreKept) {
   tooth.kind = ToothKind(from_fdi(36, "x"));
   tooth.source = one_of_each(std::make_index_sequence<std::variant_size_v<ToothEntry>>());
   tooth.source.push_back(MadeByFormula{ToothDesign::premolar, UINT64_MAX, 0.05, 1.0});
-  tooth.source.push_back(ImportedVolume{"ct.mhd", GrayReading{.dentin_from = 900.5, .peaks = GrayPeaks{1, 2, 3, 4}}, {}, 0.1, {}, 0});
+  tooth.source.push_back(ImportedVolume{
+      "ct.mhd", GrayReading{.dentin_from = 900.5, .peaks = GrayPeaks{1, 2, 3, 4}}, {}, 0.1, {}, 0});
   const Tooth again = load_tooth(save_tooth(tooth), "t.cvt");
   EXPECT_EQ(again.kind, tooth.kind);
   ASSERT_EQ(again.source.size(), tooth.source.size());
-  for (std::size_t i = 0; i < tooth.source.size(); ++i) EXPECT_EQ(encode(again.source[i]), encode(tooth.source[i])) << i;
+  for (std::size_t i = 0; i < tooth.source.size(); ++i)
+    EXPECT_EQ(encode(again.source[i]), encode(tooth.source[i])) << i;
   tooth.kind.jaw = Jaw::upper;
-  EXPECT_THROW(static_cast<void>(load_tooth(save_tooth(tooth), "t.cvt")), Error) << "36 is a lower tooth";
+  EXPECT_THROW(static_cast<void>(load_tooth(save_tooth(tooth), "t.cvt")), Error)
+      << "36 is a lower tooth";
 }
 
 TEST(ToothFile, EveryTruncationIsAnError) {
   const Bytes bytes = cube_with_a_landmark();
-  for (std::size_t n = 0; n < bytes.size(); ++n) ASSERT_THROW((void)load_tooth(std::span(bytes).first(n), "short"), Error) << n << " bytes";
+  for (std::size_t n = 0; n < bytes.size(); ++n)
+    ASSERT_THROW((void)load_tooth(std::span(bytes).first(n), "short"), Error) << n << " bytes";
 }
 
 TEST(ToothFile, NamesThatCannotBeShownAreMadeReadableOrRefused) {
@@ -63,7 +67,8 @@ TEST(ToothFile, NamesThatCannotBeShownAreMadeReadableOrRefused) {
   tooth.name = "z\xe4hne\n";
   EXPECT_EQ(load_tooth(save_tooth(tooth), "t.cvt").name, "z?hne ");
   tooth.tissues[0].name = "ena\xffmel";
-  EXPECT_TRUE(tells(thrown_by([&] { (void)load_tooth(save_tooth(tooth), "t.cvt"); }), 1)) << "the tissue";
+  EXPECT_TRUE(tells(thrown_by([&] { (void)load_tooth(save_tooth(tooth), "t.cvt"); }), 1))
+      << "the tissue";
 }
 
 TEST(ToothFile, EveryFlippedBitIsAnError) {
@@ -80,7 +85,8 @@ std::optional<Error> refusal_of(const Bytes& file) {
 }
 
 /// An octree as Octree::write would have written it.
-std::optional<Error> refusal_of_octree(double leaf_mm, int edge, const Bytes& shape, std::size_t bricks) {
+std::optional<Error> refusal_of_octree(double leaf_mm, int edge, const Bytes& shape,
+                                       std::size_t bricks) {
   ByteWriter octree;
   octree.put(leaf_mm);
   for (int i = 0; i < 3; ++i) octree.put(0.0);
@@ -97,7 +103,8 @@ TEST(ToothFile, LeavesAndBoxesOfNoToothAreRefusedWithTheLimitNamed) {
   constexpr int k_max_leaves = Octree::k_max_edge_leaves;
   const Bytes uniform{0, 0};  // one uniform cube of air
   EXPECT_FALSE(refusal_of_octree(0.05, 512, uniform, 0));
-  for (const double leaf : {0.001, 10.0, -1.0}) EXPECT_TRUE(tells(refusal_of_octree(leaf, 8, uniform, 0), k_max_leaves)) << leaf;
+  for (const double leaf : {0.001, 10.0, -1.0})
+    EXPECT_TRUE(tells(refusal_of_octree(leaf, 8, uniform, 0), k_max_leaves)) << leaf;
   EXPECT_TRUE(tells(refusal_of_octree(0.1, 1024, uniform, 0), k_max_leaves));
 }
 
@@ -138,13 +145,15 @@ TEST(ToothFile, LandmarksOfNoToothAreRefusedWhenTheyAreWrittenAndWhenTheyAreRead
   const auto with_count = [&](std::uint32_t count) {
     Bytes file = sound;
     file.resize(file.size() - sizeof(Sha256));
-    std::memcpy(file.data() + file.size() - 4 - (4 + 1 + 24) - 4, &count, 4);  // no notes, one landmark
+    std::memcpy(file.data() + file.size() - 4 - (4 + 1 + 24) - 4, &count,
+                4);  // no notes, one landmark
     const Sha256 sum = sha256(file);
     file.insert(file.end(), sum.begin(), sum.end());
     return file;
   };
   EXPECT_EQ(with_count(1), sound);
-  for (const std::uint32_t count : {0U, 0xffffffffU, 2U}) EXPECT_TRUE(refusal_of(with_count(count))) << count;
+  for (const std::uint32_t count : {0U, 0xffffffffU, 2U})
+    EXPECT_TRUE(refusal_of(with_count(count))) << count;
 }
 
 TEST(ToothFile, ShippedMolarKeepsItsBytes) {

@@ -14,24 +14,32 @@ using namespace testing_basics;
 using nlohmann::json;
 using testing_ledger::School;
 
-records::FiledSession session(std::uint64_t seq, const std::string& candidate, double first, double second, const std::string& verdict = "pass",
+records::FiledSession session(std::uint64_t seq, const std::string& candidate, double first,
+                              double second, const std::string& verdict = "pass",
                               const std::string& station = "aa") {
   records::FiledSession s;
   s.seq = s.result_seq = seq;
   s.candidate = candidate;
   s.scenario_id = "exam";
   s.station_key = station;
-  s.result = nlohmann::json{{"verdict", verdict},
-                            {"score", {{"points", first + second}, {"max", 100.0}, {"pass_percent", 60.0}, {"borderline_percent", 2.0}}},
-                            {"criteria", json::array({{{"id", "a"}, {"metric", "dice"}, {"points", first}, {"max", 60.0}},
-                                                      {{"id", "b"}, {"metric", "time_s"}, {"points", second}, {"max", 40.0}}})}};
+  s.result = nlohmann::json{
+      {"verdict", verdict},
+      {"score",
+       {{"points", first + second},
+        {"max", 100.0},
+        {"pass_percent", 60.0},
+        {"borderline_percent", 2.0}}},
+      {"criteria",
+       json::array({{{"id", "a"}, {"metric", "dice"}, {"points", first}, {"max", 60.0}},
+                    {{"id", "b"}, {"metric", "time_s"}, {"points", second}, {"max", 40.0}}})}};
   s.filed = s.result;
   return s;
 }
 
 records::Registry four() {
   records::Registry r;
-  r.sessions = {session(1, "C-1", 60, 40), session(2, "C-2", 30, 20, "fail"), session(3, "C-3", 45, 30), session(4, "C-4", 15, 10, "review")};
+  r.sessions = {session(1, "C-1", 60, 40), session(2, "C-2", 30, 20, "fail"),
+                session(3, "C-3", 45, 30), session(4, "C-4", 15, 10, "review")};
   return r;
 }
 
@@ -76,24 +84,31 @@ TEST(ClassFigures, WhoPerforatedWasFiledWithFindingsOrWasSimulatedAmongPeopleIsT
       if (l.session == seq) all.push_back(l.why);
     return all;
   };
-  r.sessions[0].result.change()["perforation"] = {{"truth", {{"perforated", true}, {"first_t_s", 12.34}, {"tissue", "pulp"}}},
-                                                  {"aim", {{"perforated", false}}}};
-  r.sessions[1].result.change()["perforation"] = {{"truth", {{"perforated", false}, {"tissue", nullptr}}},
-                                                  {"aim", {{"perforated", true}, {"tissue", "pulp"}}}};
+  r.sessions[0].result.change()["perforation"] = {
+      {"truth", {{"perforated", true}, {"first_t_s", 12.34}, {"tissue", "pulp"}}},
+      {"aim", {{"perforated", false}}}};
+  r.sessions[1].result.change()["perforation"] = {
+      {"truth", {{"perforated", false}, {"tissue", nullptr}}},
+      {"aim", {{"perforated", true}, {"tissue", "pulp"}}}};
   r.sessions.push_back(session(5, "C-5", 60, 40));
-  r.sessions.back().findings = {records::finding<records::FindingKind::recording_unsound>("the chain breaks at second 7"),
-                                records::finding<records::FindingKind::recording_unsound>("another")};
+  r.sessions.back().findings = {
+      records::finding<records::FindingKind::recording_unsound>("the chain breaks at second 7"),
+      records::finding<records::FindingKind::recording_unsound>("another")};
   r.sessions[2].simulated = "expert";
   const ClassFigures f = class_figures(r, "exam", {}, 3);
   EXPECT_EQ(f.n, 4u);
   for (const auto& [entry, reasons] : {std::pair(1, 1u), {2, 0u}, {0, 1u}, {4, 1u}, {5, 1u}})
-    EXPECT_EQ(why_of(f, static_cast<std::uint64_t>(entry)).size(), reasons) << entry << ": what a task aims at is no fault";
+    EXPECT_EQ(why_of(f, static_cast<std::uint64_t>(entry)).size(), reasons)
+        << entry << ": what a task aims at is no fault";
   EXPECT_TRUE(tells(why_of(f, 1), "pulp") && tells(why_of(f, 1), 12.34)) << "although it passed";
-  EXPECT_EQ(figures_in(why_of(f, 0).at(0)), (std::vector<double>{1, 4})) << "simulated among people";
-  EXPECT_TRUE(tells(why_of(f, 5), "the chain breaks at second 7") && tells(why_of(f, 5), 1)) << "and another";
+  EXPECT_EQ(figures_in(why_of(f, 0).at(0)), (std::vector<double>{1, 4}))
+      << "simulated among people";
+  EXPECT_TRUE(tells(why_of(f, 5), "the chain breaks at second 7") && tells(why_of(f, 5), 1))
+      << "and another";
   EXPECT_TRUE(tells(to_text(f), 1));
   for (auto& s : r.sessions) s.simulated = "expert";
-  EXPECT_TRUE(why_of(class_figures(r, "exam", {}, 3), 0).empty()) << "a class of simulated ones alone is not mixed";
+  EXPECT_TRUE(why_of(class_figures(r, "exam", {}, 3), 0).empty())
+      << "a class of simulated ones alone is not mixed";
 }
 
 TEST(ClassFigures, FromFewAreCalledRough) {
@@ -102,7 +117,8 @@ TEST(ClassFigures, FromFewAreCalledRough) {
     std::vector<HumanMark> marks;
     for (std::size_t i = 0; i < n; ++i) {
       const auto points = static_cast<double>(i % 10);
-      r.sessions.push_back(session(i + 1, "C-" + std::to_string(i), 20 + 4 * points, 10 + 2 * points));
+      r.sessions.push_back(
+          session(i + 1, "C-" + std::to_string(i), 20 + 4 * points, 10 + 2 * points));
       marks.push_back({"C-" + std::to_string(i), "x", 31 + 6 * points, 1 + points / 2});
     }
     return class_figures(r, "exam", marks, 3);
@@ -113,8 +129,10 @@ TEST(ClassFigures, FromFewAreCalledRough) {
     return names;
   };
   using Names = std::vector<std::string>;
-  EXPECT_EQ(named(of_n(17)), (Names{"alpha", "standard_error", "discrimination", "icc", "limits", "weighted_kappa", "borderline_cut"}));
-  EXPECT_EQ(named(of_n(18)), (Names{"alpha", "standard_error", "discrimination", "icc", "limits", "borderline_cut"}));
+  EXPECT_EQ(named(of_n(17)), (Names{"alpha", "standard_error", "discrimination", "icc", "limits",
+                                    "weighted_kappa", "borderline_cut"}));
+  EXPECT_EQ(named(of_n(18)), (Names{"alpha", "standard_error", "discrimination", "icc", "limits",
+                                    "borderline_cut"}));
   EXPECT_EQ(named(of_n(30)), (Names{"borderline_cut"}));
   EXPECT_EQ(named(of_n(50)), Names{});
   const ClassFigures f = of_n(17);
@@ -126,14 +144,16 @@ TEST(ClassFigures, FromFewAreCalledRough) {
 
 TEST(ClassFigures, ARegradeOutOfAnotherMaximumCountsOnTheScaleOfTheClass) {
   records::Registry r = four();
-  r.sessions[0].result.change()["score"] = {{"points", 15.0}, {"max", 30.0}, {"pass_percent", 40.0}, {"borderline_percent", 0.0}};
+  r.sessions[0].result.change()["score"] = {
+      {"points", 15.0}, {"max", 30.0}, {"pass_percent", 40.0}, {"borderline_percent", 0.0}};
   const ClassFigures f = class_figures(r, "exam", {}, 3);
   EXPECT_EQ(f.max_points, 100.0);
   EXPECT_EQ(f.points, (std::vector<double>{25, 50, 50, 75})) << "15 of 30 are 50 of 100";
 }
 
 /// Entered as `seq` with the rubric of hash `rubric`, by another pass mark.
-void regrade(records::FiledSession& s, std::uint64_t seq, double pass_percent, const std::string& rubric) {
+void regrade(records::FiledSession& s, std::uint64_t seq, double pass_percent,
+             const std::string& rubric) {
   s.result.change()["score"]["pass_percent"] = pass_percent;
   s.result_seq = seq;
   s.regrades.push_back({seq, 0, "misprinted", "", {{"rubric.toml", rubric}}, s.result});
@@ -154,7 +174,8 @@ TEST(ClassFigures, ThePassMarkIsTheOneByWhichTheResultsWereMarked) {
   records::Registry mixed = four();
   regrade(mixed.sessions[1], 12, 70, "aa");
   // a person decided on top of the regrade: it was marked by the same
-  mixed.sessions[1].regrades.push_back({15, 0, "seen", "Dr. Weber", {{"rubric.toml", "aa"}}, mixed.sessions[1].result});
+  mixed.sessions[1].regrades.push_back(
+      {15, 0, "seen", "Dr. Weber", {{"rubric.toml", "aa"}}, mixed.sessions[1].result});
   mixed.sessions[1].result_seq = 15;
   // and on the first mark of another: that is as it was sat
   mixed.sessions[2].regrades.push_back({16, 0, "seen", "Dr. Weber", {}, mixed.sessions[2].result});
@@ -163,7 +184,8 @@ TEST(ClassFigures, ThePassMarkIsTheOneByWhichTheResultsWereMarked) {
   EXPECT_FALSE(f.pass_points);
   EXPECT_FALSE(f.agreement.kappa) << "bands around no cut";
   EXPECT_TRUE(f.agreement.limits) << "needs none";
-  EXPECT_EQ(figures_in(marked_by_words(f.marked_by)), (std::vector<double>{3, 60, 1, 12, 70})) << "three as it was sat, one by that of entry 12";
+  EXPECT_EQ(figures_in(marked_by_words(f.marked_by)), (std::vector<double>{3, 60, 1, 12, 70}))
+      << "three as it was sat, one by that of entry 12";
   EXPECT_TRUE(tells(to_text(f), marked_by_words(f.marked_by)));
   EXPECT_TRUE(to_json(f)["points"]["pass"].is_null());
 
@@ -177,11 +199,14 @@ TEST(ClassFigures, ThePassMarkIsTheOneByWhichTheResultsWereMarked) {
 TEST(ClassFigures, AStationHasItsNameInTheLedger) {
   records::Registry r = four();
   const std::string first(64, 'a'), second(64, 'b'), third(64, 'c'), unknown(64, 'd');
-  r.stations.stations = {{1, "Seat 1", first, 0, 0, {}, {}, {}}, {2, "Seat 2", second, 0, 0, {}, {}, {}}, {3, "Seat 2", third, 0, 0, {}, {}, {}}};
+  r.stations.stations = {{1, "Seat 1", first, 0, 0, {}, {}, {}},
+                         {2, "Seat 2", second, 0, 0, {}, {}, {}},
+                         {3, "Seat 2", third, 0, 0, {}, {}, {}}};
   EXPECT_EQ(station_label(r, first), "Seat 1");
   EXPECT_EQ(station_label(r, second), "Seat 2 (bbbbbbbb…)") << "two have this name";
   EXPECT_EQ(station_label(r, unknown), "dddddddd…");
-  for (std::size_t i = 0; i < r.sessions.size(); ++i) r.sessions[i].station_key = i % 2 == 0 ? first : unknown;
+  for (std::size_t i = 0; i < r.sessions.size(); ++i)
+    r.sessions[i].station_key = i % 2 == 0 ? first : unknown;
   const ClassFigures f = class_figures(r, "exam", {}, 3);
   ASSERT_EQ(f.stations.size(), 2u);
   EXPECT_EQ(f.stations[0].name, "Seat 1");
@@ -193,8 +218,8 @@ TEST(ClassFigures, AStationHasItsNameInTheLedger) {
 TEST(ClassFigures, AHarderStationIsFound) {
   records::Registry r;
   for (int i = 0; i < 40; ++i)
-    r.sessions.push_back(
-        session(static_cast<std::uint64_t>(i), "C-" + std::to_string(i), 30 + i % 7 - (i % 2 ? 12 : 0), 20, "pass", i % 2 ? "bb" : "aa"));
+    r.sessions.push_back(session(static_cast<std::uint64_t>(i), "C-" + std::to_string(i),
+                                 30 + i % 7 - (i % 2 ? 12 : 0), 20, "pass", i % 2 ? "bb" : "aa"));
   const ClassFigures f = class_figures(r, "exam", {}, 3);
   ASSERT_EQ(f.stations.size(), 2u);
   EXPECT_LT(f.station_effect->chance, 0.001);
@@ -220,9 +245,12 @@ TEST(ClassFigures, PeoplesMarksAreHeldAgainstTheProgram) {
   EXPECT_NEAR(f.agreement.limits->bias, 0.0, 1e-12);
   EXPECT_GT(f.agreement.icc->single_random, 0.99);
   EXPECT_NEAR(*f.agreement.kappa, 1.0, 1e-12);
-  // ratings 5 3 4 1, points 100 50 75 25: slope 148.75/8.75·... by hand 18.571, through 3.25 and 62.5
+  // ratings 5 3 4 1, points 100 50 75 25: slope 148.75/8.75·... by hand 18.571, through 3.25
+  // and 62.5
   EXPECT_NEAR(*f.agreement.cut, 62.5 - 0.25 * 162.5 / 8.75, 1e-9);
-  for (const double beyond : {0.9, 5.1, 99.0}) EXPECT_FALSE(class_figures(r, "exam", marks, beyond).agreement.cut) << beyond << ", of ratings 1 to 5";
+  for (const double beyond : {0.9, 5.1, 99.0})
+    EXPECT_FALSE(class_figures(r, "exam", marks, beyond).agreement.cut)
+        << beyond << ", of ratings 1 to 5";
 }
 
 TEST(ClassFigures, MarksThatAreNoneAreNamedWithTheirLine) {
@@ -234,19 +262,20 @@ TEST(ClassFigures, MarksThatAreNoneAreNamedWithTheirLine) {
     FileError code;
     Value tells;
   } cases[] = {
-      {"name,points\n", FileError::malformed, FilePlace{"m.csv", 1, 0}},
+      {"name,points\n", FileError::malformed, FileLocation{"m.csv", 1, 0}},
       {head + "\nC-1,x,12,5\n", FileError::inconsistent, Name{"m.csv"}},
       {head + "\nC-1,x,\"12,5\"\n", FileError::wrong_type, Name{"12,5"}},
-      {head + "\nC-1,x,12\nC-1,x,13\n", FileError::duplicate, FilePlace{"m.csv", 3, 0}},
-      {head + "\nC-1,,12\n", FileError::missing, FilePlace{"m.csv", 2, 0}},
-      {head + "\nC-1,x,-1\n", FileError::out_of_range, FilePlace{"m.csv", 2, 0}},
-      {head + "\nC-1,x,20\nC-2,x,20.5\n", FileError::out_of_range, FilePlace{"m.csv", 3, 0}},
+      {head + "\nC-1,x,12\nC-1,x,13\n", FileError::duplicate, FileLocation{"m.csv", 3, 0}},
+      {head + "\nC-1,,12\n", FileError::missing, FileLocation{"m.csv", 2, 0}},
+      {head + "\nC-1,x,-1\n", FileError::out_of_range, FileLocation{"m.csv", 2, 0}},
+      {head + "\nC-1,x,20\nC-2,x,20.5\n", FileError::out_of_range, FileLocation{"m.csv", 3, 0}},
       {head + ",rating\nC-1,x,20,?\n", FileError::wrong_type, Name{"?"}},
       {head + "\nC-1,x,nan\n", FileError::wrong_type, Name{"nan"}},
       {head + "\n", FileError::missing, Name{"m.csv"}},
   };
   for (const auto& c : cases) {
-    const auto error = thrown_by([&] { static_cast<void>(parse_marks(c.text, identities, "exam", "m.csv", 20)); });
+    const auto error =
+        thrown_by([&] { static_cast<void>(parse_marks(c.text, identities, "exam", "m.csv", 20)); });
     EXPECT_EQ(code_of(error), c.code) << c.text;
     EXPECT_TRUE(tells(error, c.tells)) << c.text;
   }

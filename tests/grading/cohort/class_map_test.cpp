@@ -18,7 +18,8 @@ namespace {
 using testing_ledger::School;
 
 struct Block {
-  std::unique_ptr<scenarios::ExamSetup> setup = scenarios::prepare_exam(testing_ledger::k_scenario, {});
+  std::unique_ptr<scenarios::ExamSetup> setup =
+      scenarios::prepare_exam(testing_ledger::k_scenario, {});
   Tooth tooth = load_tooth(setup->session.tooth, "block");
   scenarios::ZoneMap zones = scenarios::build_zones(setup->scenario, tooth);
 };
@@ -35,7 +36,8 @@ IVec3 leaf_of(const scenarios::ZoneMap& zones, scenarios::Zone wanted) {
 
 TEST(ClassMap, CountsWhoRemovedWhatShouldStayAndLeftWhatShouldGo) {
   const Block b;
-  const IVec3 target = leaf_of(b.zones, scenarios::Zone::target), leeway = leaf_of(b.zones, scenarios::Zone::leeway_sides),
+  const IVec3 target = leaf_of(b.zones, scenarios::Zone::target),
+              leeway = leaf_of(b.zones, scenarios::Zone::leeway_sides),
               damage = leaf_of(b.zones, scenarios::Zone::container_sides);
   const IVec3 far = b.zones.low() + b.zones.size() + IVec3{7, 3, 1};
   ClassMap map(b.zones);
@@ -61,8 +63,12 @@ TEST(ClassMap, TheBoxMayGrowInAnyOrder) {
     std::vector<IVec3> cavity;
     std::set<std::array<int, 3>> once;
     for (int k = 0; k < 50; ++k) {
-      const auto along = [&](int low, int size) { return low + static_cast<int>(random() % static_cast<unsigned>(size + 20 + i)) - 10 - i / 2; };
-      const IVec3 leaf{along(b.zones.low().x, b.zones.size().x), along(b.zones.low().y, b.zones.size().y), along(b.zones.low().z, b.zones.size().z)};
+      const auto along = [&](int low, int size) {
+        return low + static_cast<int>(random() % static_cast<unsigned>(size + 20 + i)) - 10 - i / 2;
+      };
+      const IVec3 leaf{along(b.zones.low().x, b.zones.size().x),
+                       along(b.zones.low().y, b.zones.size().y),
+                       along(b.zones.low().z, b.zones.size().z)};
       if (!once.insert({leaf.x, leaf.y, leaf.z}).second) continue;
       cavity.push_back(leaf);
       ++plain[{leaf.x, leaf.y, leaf.z}];
@@ -73,9 +79,10 @@ TEST(ClassMap, TheBoxMayGrowInAnyOrder) {
     const IVec3 leaf{at[0], at[1], at[2]};
     const double removed = 100.0 * n / k_sessions;
     const scenarios::Zone zone = b.zones.zone(leaf);
-    const double expected = zone == scenarios::Zone::target                                                   ? removed - 100
-                            : zone == scenarios::Zone::leeway_sides || zone == scenarios::Zone::leeway_bottom ? 0
-                                                                                                              : removed;
+    const double expected =
+        zone == scenarios::Zone::target ? removed - 100
+        : zone == scenarios::Zone::leeway_sides || zone == scenarios::Zone::leeway_bottom ? 0
+                                                                                          : removed;
     ASSERT_NEAR(map.percent(leaf), expected, 1e-9);
   }
 }
@@ -97,10 +104,13 @@ TEST(ClassMap, AgreesWithTheTeethThatWereLeft) {
   for (const auto& path : sat) left.push_back(load_tooth(SessionReader(path).final_tooth(), path));
   std::size_t over = 0, under = 0;
   read->zones.for_each_leaf([&](IVec3 leaf, scenarios::Zone zone) {
-    if (read->tooth.octree.tissue(leaf) == k_air || zone == scenarios::Zone::leeway_sides || zone == scenarios::Zone::leeway_bottom) return;
+    if (read->tooth.octree.tissue(leaf) == k_air || zone == scenarios::Zone::leeway_sides ||
+        zone == scenarios::Zone::leeway_bottom)
+      return;
     int gone = 0;
     for (const auto& tooth : left) gone += tooth.octree.tissue(leaf) == k_air ? 1 : 0;
-    const double removed = 100.0 * gone / 3, expected = zone == scenarios::Zone::target ? removed - 100 : removed;
+    const double removed = 100.0 * gone / 3,
+                 expected = zone == scenarios::Zone::target ? removed - 100 : removed;
     ASSERT_NEAR(read->map->percent(leaf), expected, 1e-9);
     over += expected > 0 ? 1 : 0;
     under += expected < 0 ? 1 : 0;
@@ -108,11 +118,14 @@ TEST(ClassMap, AgreesWithTheTeethThatWereLeft) {
   EXPECT_GT(over, 0u) << "the students leave the target";
   EXPECT_GT(under, 0u) << "and leave some of it standing";
 
-  write_text_file(school.places().session(records::read_registry(content).sessions[1].file_sha256), "changed");
+  write_text_file(school.places().session(records::read_registry(content).sessions[1].file_sha256),
+                  "changed");
   const auto again = class_tooth(records::read_registry(content), school.places(), "block_cavity");
   EXPECT_EQ(again->map->sessions(), 2u);
   ASSERT_EQ(again->findings.size(), 1u);
-  EXPECT_TRUE(testing_basics::tells(again->findings[0], school.places().session(records::read_registry(content).sessions[1].file_sha256)))
+  EXPECT_TRUE(testing_basics::tells(
+      again->findings[0],
+      school.places().session(records::read_registry(content).sessions[1].file_sha256)))
       << again->findings[0];
 }
 

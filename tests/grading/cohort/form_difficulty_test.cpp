@@ -1,4 +1,5 @@
-// Forms of known difficulty, sat by drawn candidates: how often intervals hold, alarms are false, and real differences are found.
+// Forms of known difficulty, sat by drawn candidates: how often intervals hold, alarms are false,
+// and real differences are found.
 #include "grading/cohort/form_difficulty.h"
 
 #include <gtest/gtest.h>
@@ -19,11 +20,12 @@ struct DrawnClass {
   std::vector<double> skill;
 };
 
-/// How marks come about in the tests: the more able scatter less, everybody has good and bad days, and nobody has more than 100.
+/// How marks come about in the tests: the more able scatter less, everybody has good and bad days,
+/// and nobody has more than 100.
 struct KnownForms {
   std::vector<double> harder;  // points that each form takes away
-  double scatter = 12.0;       // of a beginner's mark from form to form; an expert's is a tenth of it
-  bool weak_only = false;      // an expert does not feel that a form is harder
+  double scatter = 12.0;   // of a beginner's mark from form to form; an expert's is a tenth of it
+  bool weak_only = false;  // an expert does not feel that a form is harder
 
   [[nodiscard]] DrawnClass draw(std::size_t n, Random& random) const {
     DrawnClass drawn;
@@ -34,7 +36,9 @@ struct KnownForms {
       auto& row = drawn.marks.emplace_back();
       for (const double points : harder) {
         const double takes = weak_only ? points * 2 * (1 - skill) : points;
-        row.push_back(std::clamp(55 + 42 * skill + day - takes + scatter * (1 - 0.9 * skill) * random.normal(), 0.0, 100.0));
+        row.push_back(std::clamp(
+            55 + 42 * skill + day - takes + scatter * (1 - 0.9 * skill) * random.normal(), 0.0,
+            100.0));
       }
     }
     return drawn;
@@ -46,7 +50,8 @@ struct KnownForms {
     std::vector<double> sum(harder.size());
     for (int t = 0; t < k_times; ++t)
       for (const auto& row : draw(n, random).marks)
-        for (std::size_t f = 0; f < row.size(); ++f) sum[f] += row[f] / (k_times * static_cast<double>(n));
+        for (std::size_t f = 0; f < row.size(); ++f)
+          sum[f] += row[f] / (k_times * static_cast<double>(n));
     const double all = mean(sum);
     for (double& v : sum) v -= all;
     return sum;
@@ -63,13 +68,15 @@ Rates rates_of(const KnownForms& forms, std::size_t n, double limit, int classes
   for (int i = 0; i < classes; ++i) {
     Random random(1000 + static_cast<std::uint64_t>(i));
     const auto drawn = forms.draw(n, random);
-    const FormsJudged judged = judge_forms(drawn.marks, drawn.skill, limit, static_cast<std::uint64_t>(i));
+    const FormsJudged judged =
+        judge_forms(drawn.marks, drawn.skill, limit, static_cast<std::uint64_t>(i));
     bool holds = true, wrong = false, found = true, depends = false;
     for (std::size_t f = 0; f < truth.size(); ++f) {
       const FormDifficulty& d = judged.forms[f];
       holds = holds && truth[f] >= d.low && truth[f] <= d.high;
       const bool alarm = d.verdict == FormVerdict::too_easy || d.verdict == FormVerdict::too_hard;
-      wrong = wrong || (alarm && std::fabs(truth[f]) <= limit) || (d.verdict == FormVerdict::alike && std::fabs(truth[f]) > limit);
+      wrong = wrong || (alarm && std::fabs(truth[f]) <= limit) ||
+              (d.verdict == FormVerdict::alike && std::fabs(truth[f]) > limit);
       found = found && (std::fabs(truth[f]) <= limit || alarm);
       depends = depends || d.depends_on_skill;
     }
@@ -77,7 +84,8 @@ Rates rates_of(const KnownForms& forms, std::size_t n, double limit, int classes
     r.significant += judged.chance < 0.05;
     r.spread += judged.spread;
   }
-  for (double* v : {&r.holds, &r.significant, &r.false_alarm, &r.found, &r.depends, &r.spread}) *v /= classes;
+  for (double* v : {&r.holds, &r.significant, &r.false_alarm, &r.found, &r.depends, &r.spread})
+    *v /= classes;
   return r;
 }
 
@@ -86,8 +94,9 @@ const int k_classes = std::getenv("CAVUM_DEEP") != nullptr ? 1000 : 150;
 const double k_chance_of_rates = 3 * std::sqrt(0.05 * 0.95 / k_classes);
 
 void say(const char* what, const Rates& r) {
-  std::printf("%s: intervals hold %.3f, significant %.3f, wrong verdicts %.3f, all found %.3f, depends on skill %.3f, spread %.2f\n", what, r.holds,
-              r.significant, r.false_alarm, r.found, r.depends, r.spread);
+  std::printf(
+      "%s: intervals hold %.3f, significant %.3f, wrong verdicts %.3f, all found %.3f, depends on skill %.3f, spread %.2f\n",
+      what, r.holds, r.significant, r.false_alarm, r.found, r.depends, r.spread);
 }
 
 TEST(FormDifficulty, EqualFormsAreSeldomCalledUnequal) {
@@ -141,7 +150,8 @@ TEST(FormDifficulty, FiguresAreThoseOfAWorkedTable) {
   EXPECT_NEAR(j.forms[1].mean, 59.5, 1e-9);
   EXPECT_NEAR(j.forms[1].easier, 2.5, 1e-9);
   EXPECT_NEAR(j.forms[0].constant, 2.5, 1e-9);
-  EXPECT_NEAR(j.forms[1].easier_error, 0.5, 1e-9) << "halves of differences 4, nine times, and 14: sd 5/sqrt(10), over sqrt(10)";
+  EXPECT_NEAR(j.forms[1].easier_error, 0.5, 1e-9)
+      << "halves of differences 4, nine times, and 14: sd 5/sqrt(10), over sqrt(10)";
   EXPECT_NEAR(j.forms[1].easier_for_weak, 2.0, 1e-9);
   EXPECT_NEAR(j.forms[1].easier_for_able, 3.0, 1e-9);
   EXPECT_NEAR(j.spread, std::sqrt(2 * 2.5 * 2.5 - 2 * 0.25), 1e-9);
@@ -151,9 +161,14 @@ TEST(FormDifficulty, FiguresAreThoseOfAWorkedTable) {
 TEST(FormDifficulty, RefusesWhatCannotBeJudged) {
   const Matrix few(9, std::vector<double>{1, 2});
   EXPECT_THROW((void)judge_forms(few, std::vector<double>(9), 3, 1), Error);
-  EXPECT_THROW((void)judge_forms(Matrix(10, std::vector<double>{1}), std::vector<double>(10), 3, 1), Error);
-  EXPECT_THROW((void)judge_forms(Matrix(10, std::vector<double>{1, 2}), std::vector<double>(9), 3, 1), Error);
-  EXPECT_THROW((void)judge_forms(Matrix(10, std::vector<double>{1, 2}), std::vector<double>(10), 0, 1), Error);
+  EXPECT_THROW((void)judge_forms(Matrix(10, std::vector<double>{1}), std::vector<double>(10), 3, 1),
+               Error);
+  EXPECT_THROW(
+      (void)judge_forms(Matrix(10, std::vector<double>{1, 2}), std::vector<double>(9), 3, 1),
+      Error);
+  EXPECT_THROW(
+      (void)judge_forms(Matrix(10, std::vector<double>{1, 2}), std::vector<double>(10), 0, 1),
+      Error);
   Matrix ragged(10, std::vector<double>{1, 2});
   ragged[3].pop_back();
   EXPECT_THROW((void)judge_forms(ragged, std::vector<double>(10), 3, 1), Error);

@@ -1,5 +1,6 @@
-// Simulated beginners and their lessons. Each mistake is undone in the leaves, and the exam marked again: the three that the lessons name first must
-// be those that cost most. Then each sits the exam again and does what his three sentences say: his points must rise. A few every day; with
+// Simulated beginners and their lessons. Each mistake is undone in the leaves, and the exam marked
+// again: the three that the lessons name first must be those that cost most. Then each sits the
+// exam again and does what his three sentences say: his points must rise. A few every day; with
 // CAVUM_DEEP two hundred.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -30,17 +31,19 @@ using testing::NoviceTask;
 using testing::Sat;
 using Mistakes = std::set<Topic>;
 
-constexpr Topic k_in_the_tooth[] = {Topic::left_standing, Topic::roof,      Topic::canals, Topic::beside,
-                                    Topic::too_deep,      Topic::elsewhere, Topic::opened};
+constexpr Topic k_in_the_tooth[] = {Topic::left_standing, Topic::roof,     Topic::canals,
+                                    Topic::beside,        Topic::too_deep, Topic::elsewhere,
+                                    Topic::opened};
 constexpr double k_alike_points = 1.0;  // mistakes whose gains differ by less cost the same
 constexpr double k_mouth_mm = 0.8;      // around a canal's mouth
 constexpr double k_near_fault_mm = 0.5;
 
-/// The exam marked again with mistakes undone: filled up to the target where it went too far, or cut on to the target. Nothing of it looks at what
-/// lessons say.
+/// The exam marked again with mistakes undone: filled up to the target where it went too far, or
+/// cut on to the target. Nothing of it looks at what lessons say.
 class Undone {
  public:
-  Undone(const NoviceTask& task, const Sat& sat, const Result& marked) : task_(task), sat_(sat), marked_(marked) {
+  Undone(const NoviceTask& task, const Sat& sat, const Result& marked)
+      : task_(task), sat_(sat), marked_(marked) {
     const auto& scenario = task.setup->scenario;
     for (const auto& t : task.setup->tooth.tissues) {
       const auto named = [&](const std::vector<std::string>& list) {
@@ -60,7 +63,8 @@ class Undone {
     low_mm_ = low_mm_ - around, high_mm_ = high_mm_ + around;
   }
 
-  /// Without any: the same cavity cut anew by its own surface, which is what gains are counted from.
+  /// Without any: the same cavity cut anew by its own surface, which is what gains are counted
+  /// from.
   [[nodiscard]] Result without(const Mistakes& mistakes) const {
     const scenarios::ZoneMap& zones = task_.setup->zones;
     const Octree& before = task_.setup->tooth.octree;
@@ -72,7 +76,9 @@ class Undone {
     const auto cut = [&](Vec3 p) {
       const Octree& was = sat_.after.octree;
       const double open = was.sample(p, cursor).distance_mm;
-      double cavity = open > 0 && was.tissue_at(p, cursor) != k_air ? open : -open;  // pulp that is still there is void, and was not cut
+      double cavity = open > 0 && was.tissue_at(p, cursor) != k_air
+                          ? open
+                          : -open;  // pulp that is still there is void, and was not cut
       for (const Topic m : mistakes) cavity = without(m, p, cavity);
       return cavity;
     };
@@ -80,7 +86,8 @@ class Undone {
     std::vector<RemovedAt> removed;
     const auto last = static_cast<std::int64_t>(sat_.records.size()) - 1;
     for (const auto& l : leaves) removed.push_back({last, l});
-    return grade({task_.setup->scenario, task_.setup->tooth, zones, after, sat_.inputs, sat_.records, removed, sat_.events},
+    return grade({task_.setup->scenario, task_.setup->tooth, zones, after, sat_.inputs,
+                  sat_.records, removed, sat_.events},
                  task_.setup->scenario.rubric);
   }
 
@@ -98,7 +105,9 @@ class Undone {
       case Topic::too_deep:
         return floor ? std::max(cavity, target) : cavity;
       case Topic::elsewhere:
-        return (zone == scenarios::Zone::none || zone == scenarios::Zone::protected_) && target > 0 ? std::max(cavity, target) : cavity;
+        return (zone == scenarios::Zone::none || zone == scenarios::Zone::protected_) && target > 0
+                   ? std::max(cavity, target)
+                   : cavity;
       case Topic::opened:
         return target > 0 && near_fault(p) ? std::max(cavity, target) : cavity;
       case Topic::left_standing:
@@ -113,23 +122,26 @@ class Undone {
   }
   [[nodiscard]] bool near_fault(Vec3 p) const {
     constexpr double d = k_near_fault_mm;
-    for (const Vec3 by : {Vec3{0, 0, 0}, Vec3{d, 0, 0}, Vec3{-d, 0, 0}, Vec3{0, d, 0}, Vec3{0, -d, 0}, Vec3{0, 0, d}, Vec3{0, 0, -d}})
+    for (const Vec3 by : {Vec3{0, 0, 0}, Vec3{d, 0, 0}, Vec3{-d, 0, 0}, Vec3{0, d, 0},
+                          Vec3{0, -d, 0}, Vec3{0, 0, d}, Vec3{0, 0, -d}})
       if (fault_[task_.setup->tooth.octree.tissue_at(p + by)]) return true;
     return false;
   }
   /// The chamber that is to be opened lies below, as seen along the way in.
   [[nodiscard]] bool over_aim(Vec3 p) const {
     for (double down = 0; down < 4; down += 0.1)
-      if (aim_[task_.setup->tooth.octree.tissue_at(p - task_.setup->zones.approach() * down)]) return true;
+      if (aim_[task_.setup->tooth.octree.tissue_at(p - task_.setup->zones.approach() * down)])
+        return true;
     return false;
   }
   /// On the straight way out of a canal's mouth.
   [[nodiscard]] bool at_mouth(Vec3 p) const {
     const Vec3 up = task_.setup->zones.approach();
-    return std::any_of(marked_.access.canal_mouths.begin(), marked_.access.canal_mouths.end(), [&](const auto& mouth) {
-      const Vec3 off = p - mouth.middle_mm;
-      return length(off - up * dot(off, up)) < k_mouth_mm;
-    });
+    return std::any_of(marked_.access.canal_mouths.begin(), marked_.access.canal_mouths.end(),
+                       [&](const auto& mouth) {
+                         const Vec3 off = p - mouth.middle_mm;
+                         return length(off - up * dot(off, up)) < k_mouth_mm;
+                       });
   }
   const NoviceTask& task_;
   const Sat& sat_;
@@ -146,13 +158,17 @@ double lost_by(const Result& r, std::initializer_list<const char*> metrics) {
   return lost;
 }
 int failed_limits(const Result& r) {
-  return static_cast<int>(std::count_if(r.criteria.begin(), r.criteria.end(), [](const auto& c) { return c.judged && c.critical_failed; }));
+  return static_cast<int>(std::count_if(r.criteria.begin(), r.criteria.end(), [](const auto& c) {
+    return c.judged && c.critical_failed;
+  }));
 }
 
-/// What mistakes cost, named by a lesson or not: those in the tooth are undone; what time and slope cost stands in their criteria.
+/// What mistakes cost, named by a lesson or not: those in the tooth are undone; what time and slope
+/// cost stands in their criteria.
 class Costs {
  public:
-  Costs(const NoviceTask& task, const Sat& sat, const Result& marked) : undone_(task, sat, marked), as_it_is_(undone_.without({})) {
+  Costs(const NoviceTask& task, const Sat& sat, const Result& marked)
+      : undone_(task, sat, marked), as_it_is_(undone_.without({})) {
     for (const Topic t : k_in_the_tooth) {
       const double wins = gain({t});
       if (wins > 0.05) single_[t] = wins;
@@ -174,10 +190,13 @@ class Costs {
     return known_[mistakes] = points;
   }
   /// Whether undoing them takes a failed limit away.
-  [[nodiscard]] bool frees(const Mistakes& mistakes) { return static_cast<void>(gain(mistakes)), frees_[mistakes]; }
+  [[nodiscard]] bool frees(const Mistakes& mistakes) {
+    return static_cast<void>(gain(mistakes)), frees_[mistakes];
+  }
   /// Of each that costs anything by itself.
   [[nodiscard]] const std::map<Topic, double>& single() const { return single_; }
-  /// The mistakes, `most` of them, whose undoing wins the most: one after the other, each with those before it undone.
+  /// The mistakes, `most` of them, whose undoing wins the most: one after the other, each with
+  /// those before it undone.
   [[nodiscard]] Mistakes dearest(std::size_t most) {
     Mistakes chosen;
     while (chosen.size() < most) {
@@ -218,8 +237,10 @@ class LessonsOfNovices : public ::testing::Test {
     write_file(folder_.file("molar.cvt"), save_tooth(make_molar(molar)));
     write_file(folder_.file("premolar.cvt"), save_tooth(make_premolar(premolar)));
     write_file(folder_.file("incisor.cvt"), save_tooth(make_incisor(incisor)));
-    write_file(folder_.file("block.cvt"),
-               save_tooth(make_block({10, 10, 6}, {{"enamel", 1.2}, {"dentin", 2.0}, {"pulp", 1.5}, {"dentin", 1.3}}, 0.1)));
+    write_file(
+        folder_.file("block.cvt"),
+        save_tooth(make_block(
+            {10, 10, 6}, {{"enamel", 1.2}, {"dentin", 2.0}, {"pulp", 1.5}, {"dentin", 1.3}}, 0.1)));
   }
   testing_basics::Folder folder_;
 };
@@ -228,8 +249,10 @@ TEST_F(LessonsOfNovices, HearWhatCostMostAndWinPointsByIt) {
   const bool deep = std::getenv("CAVUM_DEEP") != nullptr;
   Random random(testing_basics::drawn_seed("LessonsOfNovices.HearWhatCostMostAndWinPointsByIt"));
   const std::pair<const char*, const char*> sat_on[] = {
-      {"slot", "block.cvt"},    {"premolar_access", "premolar.cvt"}, {"class_1", "molar.cvt"},     {"cross", "block.cvt"},
-      {"class_2", "molar.cvt"}, {"incisor_access", "incisor.cvt"},   {"molar_access", "molar.cvt"}};
+      {"slot", "block.cvt"},        {"premolar_access", "premolar.cvt"},
+      {"class_1", "molar.cvt"},     {"cross", "block.cvt"},
+      {"class_2", "molar.cvt"},     {"incisor_access", "incisor.cvt"},
+      {"molar_access", "molar.cvt"}};
   const char* many = std::getenv("CAVUM_NOVICES");
   const int novices = many != nullptr ? std::atoi(many) : deep ? 200 : 3;
   std::map<std::string, NoviceTask> tasks;
@@ -237,9 +260,11 @@ TEST_F(LessonsOfNovices, HearWhatCostMostAndWinPointsByIt) {
   const auto& kinds = testing::beginner_kinds();
   for (int i = 0; i < novices; ++i) {
     const auto& [task_name, tooth] = sat_on[static_cast<std::size_t>(i) % std::size(sat_on)];
-    if (!tasks.contains(task_name)) tasks[task_name] = testing::novice_task(task_name, folder_.file(tooth));
+    if (!tasks.contains(task_name))
+      tasks[task_name] = testing::novice_task(task_name, folder_.file(tooth));
     const NoviceTask& task = tasks[task_name];
-    const testing::Beginner who = testing::beginner(kinds[random.below(kinds.size())], random.next());
+    const testing::Beginner who =
+        testing::beginner(kinds[random.below(kinds.size())], random.next());
     const Sat first = testing::sit(task, who, {}, folder_.file("first.cavum"));
     const Result r = grade(first.input(task), task.setup->scenario.rubric);
     auto said = lessons(first.input(task), r);
@@ -255,20 +280,25 @@ TEST_F(LessonsOfNovices, HearWhatCostMostAndWinPointsByIt) {
       line += fmt::format(" {}{} {:.1f}", topic_name(l.topic), l.fails_exam ? "!" : "", l.points);
     }
     const Mistakes dearest = costs.dearest(3);
-    const bool right = costs.gain(said_topics) > (dearest.empty() ? 0.0 : costs.gain(dearest)) - k_alike_points;
+    const bool right =
+        costs.gain(said_topics) > (dearest.empty() ? 0.0 : costs.gain(dearest)) - k_alike_points;
     double most = 0;
     for (const auto& [topic, points] : costs.single()) most = std::max(most, points);
-    const bool first_right = costs.gain({said[0].topic}) > most - k_alike_points || (said[0].fails_exam && costs.frees({said[0].topic}));
+    const bool first_right = costs.gain({said[0].topic}) > most - k_alike_points ||
+                             (said[0].fails_exam && costs.frees({said[0].topic}));
     named += right;
     first_is_dearest += first_right;
     const Sat again = testing::sit(task, who, said, folder_.file("again.cavum"));
     const Result better = grade(again.input(task), task.setup->scenario.rubric);
     const bool rose = better.points > r.points;
     won += rose;
-    std::cout << fmt::format("{} {} {}: {:.1f} to {:.1f}{} | said{}: {:.1f}{}{} | dearest {}: {:.1f} |", i, task_name, who.kind, r.points,
-                             better.points, rose ? "" : " NOT BETTER", line, costs.gain(said_topics), right ? "" : " NOT THE DEAREST",
-                             first_right ? "" : " NOT THE FIRST", names(dearest), dearest.empty() ? 0.0 : costs.gain(dearest));
-    for (const auto& [topic, points] : costs.single()) std::cout << fmt::format(" {} {:.1f}", topic_name(topic), points);
+    std::cout << fmt::format(
+        "{} {} {}: {:.1f} to {:.1f}{} | said{}: {:.1f}{}{} | dearest {}: {:.1f} |", i, task_name,
+        who.kind, r.points, better.points, rose ? "" : " NOT BETTER", line, costs.gain(said_topics),
+        right ? "" : " NOT THE DEAREST", first_right ? "" : " NOT THE FIRST", names(dearest),
+        dearest.empty() ? 0.0 : costs.gain(dearest));
+    for (const auto& [topic, points] : costs.single())
+      std::cout << fmt::format(" {} {:.1f}", topic_name(topic), points);
     std::cout << std::endl;
   }
   std::cout << fmt::format(

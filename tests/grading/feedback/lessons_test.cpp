@@ -1,5 +1,5 @@
-// Lessons: their points are those that were lost, each mistake that was cut into a block is the first to be named, at the place where it was made,
-// and doing what a lesson says wins points.
+// Lessons: their points are those that were lost, each mistake that was cut into a block is the
+// first to be named, at the place where it was made, and doing what a lesson says wins points.
 #include "grading/feedback/lessons.h"
 
 #include <gtest/gtest.h>
@@ -22,20 +22,26 @@ using testing::Carved;
 using testing::dentin_block;
 using testing::scenario_text;
 
-Term told_wall(scenarios::Wall wall) { return scenarios::wall_text(static_cast<std::size_t>(wall), {}); }
+Term told_wall(scenarios::Wall wall) {
+  return scenarios::wall_text(static_cast<std::size_t>(wall), {});
+}
 
 /// The moment that a lesson names; -1 where it names none.
-double told_s(const Message& m) {
+double reported_s(const Message& m) {
   for (const Value& v : m.values()) {
     if (const auto* time = std::get_if<ClockTime>(&v)) return time->seconds;
     if (const auto* inner = std::get_if<Message>(&v))
-      if (const double s = told_s(*inner); s >= 0) return s;
+      if (const double s = reported_s(*inner); s >= 0) return s;
   }
   return -1;
 }
 
-/// A box of 3 x 2 mm, 2 mm deep, in a block; marked for what is left, what is cut beside and below it, and what is cut elsewhere.
-std::string box_task() { return scenario_text("[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [3, 2, 3]\n"); }
+/// A box of 3 x 2 mm, 2 mm deep, in a block; marked for what is left, what is cut beside and below
+/// it, and what is cut elsewhere.
+std::string box_task() {
+  return scenario_text(
+      "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [3, 2, 3]\n");
+}
 scenarios::RubricSpec box_rubric() {
   scenarios::RubricSpec rubric;
   const auto add = [&](const char* metric, double full, double zero, double points) {
@@ -95,7 +101,8 @@ TEST_F(Lessons, WhatWasLeftIsNamedWithItsWall) {
   const auto all = of();
   ASSERT_FALSE(all.empty());
   EXPECT_EQ(all[0].topic, Topic::left_standing);
-  for (const Message& m : {all[0].what, all[0].instead}) EXPECT_TRUE(tells(m, told_wall(scenarios::Wall::distal))) << m;
+  for (const Message& m : {all[0].what, all[0].instead})
+    EXPECT_TRUE(tells(m, told_wall(scenarios::Wall::distal))) << m;
   EXPECT_NEAR(figures_in(all[0].what).back(), 0.8, 0.05) << "up to so thick";
 }
 
@@ -107,12 +114,13 @@ TEST_F(Lessons, AWallThatWasCutTooFarIsNamedWithItsTime) {
   EXPECT_EQ(all[0].topic, Topic::beside);
   EXPECT_TRUE(tells(all[0].what, told_wall(scenarios::Wall::buccal))) << all[0].what;
   EXPECT_NEAR(figures_in(all[0].what).at(0), 0.85, 0.05);
-  EXPECT_NEAR(told_s(all[0].what), 95, 0.5);
+  EXPECT_NEAR(reported_s(all[0].what), 95, 0.5);
   EXPECT_NEAR(all[0].points, 20 * (0.8 - 0.3) / 0.7 + 20, 4);
 }
 
 TEST_F(Lessons, WallsThatWereAllCutTooFarAreOneSentence) {
-  work_.carve(box_hole(-2.1, 2.1, -1.6, 1.6, -2), 500);  // 0.6 mm too far all round, at the corners 0.85
+  work_.carve(box_hole(-2.1, 2.1, -1.6, 1.6, -2),
+              500);  // 0.6 mm too far all round, at the corners 0.85
   const auto all = of();
   ASSERT_FALSE(all.empty());
   EXPECT_EQ(all[0].topic, Topic::beside);
@@ -125,7 +133,8 @@ TEST_F(Lessons, ADentFarFromTheCavityIsNoWallOfIt) {
   static_cast<void>(of());
   for (const auto& c : result_.criteria) {
     if (c.metric != "side_walls_max_over_mm") continue;
-    EXPECT_TRUE(result_.shape.wall[static_cast<std::size_t>(scenarios::Wall::mesial)].over_outside) << c.reason();
+    EXPECT_TRUE(result_.shape.wall[static_cast<std::size_t>(scenarios::Wall::mesial)].over_outside)
+        << c.reason();
   }
 }
 
@@ -136,7 +145,7 @@ TEST_F(Lessons, AFloorThatIsTooDeepIsNamedWithItsPlace) {
   ASSERT_FALSE(all.empty());
   EXPECT_EQ(all[0].topic, Topic::too_deep);
   EXPECT_NEAR(figures_in(all[0].what).at(0), 0.95, 0.05);
-  EXPECT_NEAR(told_s(all[0].what), 61, 0.5);
+  EXPECT_NEAR(reported_s(all[0].what), 61, 0.5);
   ASSERT_TRUE(all[0].look_mm);
   EXPECT_TRUE(tells(all[0].what, side_words(*all[0].look_mm, work_.input().zones))) << all[0].what;
   EXPECT_LT(std::fabs(all[0].look_mm->x + 1.05), 0.45);
@@ -169,11 +178,13 @@ TEST(LessonsOfAChamber, WhatWasOpenedThroughTheFloorIsOneMistakeAndNotACutElsewh
   EXPECT_TRUE(all[0].fails_exam);
   EXPECT_TRUE(tells(all[0].what, "pulp"));
   EXPECT_NEAR(figures_in(all[0].what).at(0), 0.95, 0.05) << "the floor's depth";
-  EXPECT_NEAR(told_s(all[0].what), 61, 0.5);
-  for (const auto& l : all) EXPECT_TRUE(l.topic != Topic::elsewhere && l.topic != Topic::opened) << l.what;
+  EXPECT_NEAR(reported_s(all[0].what), 61, 0.5);
+  for (const auto& l : all)
+    EXPECT_TRUE(l.topic != Topic::elsewhere && l.topic != Topic::opened) << l.what;
 }
 
-/// The chamber's roof is cut away all over, down to the floor of the hole; the chamber lies from 2.8 to 4.5 mm deep.
+/// The chamber's roof is cut away all over, down to the floor of the hole; the chamber lies
+/// from 2.8 to 4.5 mm deep.
 std::vector<Lesson> of_chamber(double down_to_z, double open_x) {
   Carved work(testing::opening_pulp(testing::k_chamber_target), testing::chambered_block(0.1));
   work.carve(box_hole(-1.5, open_x, -1, 1, down_to_z), 95'000);
@@ -194,7 +205,8 @@ std::vector<Lesson> of_a_shallow_box() {
   return lessons(work.input(), r);
 }
 const Lesson* of_topic(const std::vector<Lesson>& all, Topic topic) {
-  const auto found = std::find_if(all.begin(), all.end(), [topic](const Lesson& l) { return l.topic == topic; });
+  const auto found =
+      std::find_if(all.begin(), all.end(), [topic](const Lesson& l) { return l.topic == topic; });
   return found == all.end() ? nullptr : &*found;
 }
 
@@ -218,7 +230,8 @@ TEST(LessonsOfAChamber, WhatASlipCutsBehindTheOpeningIsTheSameMistake) {
   const auto slip = topics(62'000), apart = topics(90'000);
   EXPECT_FALSE(slip.contains(Topic::elsewhere));
   ASSERT_TRUE(apart.contains(Topic::elsewhere));
-  EXPECT_NEAR(slip.at(Topic::too_deep), apart.at(Topic::too_deep) + apart.at(Topic::elsewhere), 0.02);
+  EXPECT_NEAR(slip.at(Topic::too_deep), apart.at(Topic::too_deep) + apart.at(Topic::elsewhere),
+              0.02);
 }
 
 TEST(LessonsOfAChamber, WhoOpenedItIsNotToldToGoDeeper) {
@@ -235,7 +248,8 @@ TEST(LessonsOfAChamber, WhoDidNotOpenItIsToldToGoOnUntilItGivesWay) {
   const Lesson* left = of_topic(all, Topic::left_standing);
   ASSERT_NE(left, nullptr);
   const auto shallow = of_a_shallow_box();
-  EXPECT_NE(left->instead, of_topic(shallow, Topic::left_standing)->instead) << "who is asked for a depth is told to go down to it";
+  EXPECT_NE(left->instead, of_topic(shallow, Topic::left_standing)->instead)
+      << "who is asked for a depth is told to go down to it";
 }
 
 TEST(LessonsOfAChamber, ARoofHasItsPlaceAndAMomentToLookAt) {
@@ -250,11 +264,15 @@ TEST(LessonsOfAChamber, ARoofHasItsPlaceAndAMomentToLookAt) {
 TEST(WallsOfPeople, FrontTeethHaveLabialAndIncisal) {
   using scenarios::Facing;
   constexpr auto k_buccal = static_cast<std::size_t>(scenarios::Wall::buccal);
-  const Term buccal = scenarios::wall_text(k_buccal, Facing{}), labial = scenarios::wall_text(k_buccal, Facing{0, true}),
+  const Term buccal = scenarios::wall_text(k_buccal, Facing{}),
+             labial = scenarios::wall_text(k_buccal, Facing{0, true}),
              incisal = scenarios::wall_text(k_buccal, Facing{1, true});
   EXPECT_TRUE(buccal != labial && labial != incisal && buccal != incisal);
-  for (const ToothKind& front : {kind_of(ToothDesign::incisor), ToothKind(from_fdi(13, "x"))}) EXPECT_TRUE(front.anterior());
-  for (const ToothKind& back : {kind_of(ToothDesign::molar), ToothKind(from_fdi(14, "x")), ToothKind()}) EXPECT_FALSE(back.anterior());
+  for (const ToothKind& front : {kind_of(ToothDesign::incisor), ToothKind(from_fdi(13, "x"))})
+    EXPECT_TRUE(front.anterior());
+  for (const ToothKind& back :
+       {kind_of(ToothDesign::molar), ToothKind(from_fdi(14, "x")), ToothKind()})
+    EXPECT_FALSE(back.anterior());
 }
 
 TEST_F(Lessons, OfTwoMistakesTheDearerComesFirst) {
@@ -286,7 +304,8 @@ TEST(LessonsObeyed, EachWinsThePointsItSpeaksOf) {
   const Worked all = worked(true, true, true);
   ASSERT_EQ(all.lessons.size(), 3u);
   for (const auto& l : all.lessons) {
-    const Worked obeyed = worked(l.topic != Topic::left_standing, l.topic != Topic::beside, l.topic != Topic::too_deep);
+    const Worked obeyed = worked(l.topic != Topic::left_standing, l.topic != Topic::beside,
+                                 l.topic != Topic::too_deep);
     EXPECT_NEAR(obeyed.points - all.points, l.points, 0.15 * l.points + 0.3) << topic_name(l.topic);
     for (const auto& still : obeyed.lessons) EXPECT_NE(still.topic, l.topic) << still.what;
   }
@@ -299,7 +318,12 @@ TEST_F(Lessons, PlacesAreSaidByTheCavity) {
     const double a = deg * 3.14159265358979 / 180;
     return side_words(middle + Vec3{std::cos(a), std::sin(a), 0}, zones);
   };
-  for (const auto& [deg, wall] : {std::pair(0., "mesial"), {90., "buccal"}, {180., "distal"}, {270., "lingual"}, {20., "mesial"}, {70., "buccal"}})
+  for (const auto& [deg, wall] : {std::pair(0., "mesial"),
+                                  {90., "buccal"},
+                                  {180., "distal"},
+                                  {270., "lingual"},
+                                  {20., "mesial"},
+                                  {70., "buccal"}})
     EXPECT_TRUE(tells(towards(deg), wall)) << deg << ": " << towards(deg);
   EXPECT_EQ(towards(25), towards(45));
   EXPECT_EQ(towards(65), towards(45));

@@ -12,13 +12,16 @@ namespace {
 
 TEST(MeasuresPage, IsTheOneInTheManual) {
   if (std::getenv("CAVUM_ALTER_SENTENCES") != nullptr) GTEST_SKIP() << "asks for words";
-  EXPECT_EQ(measures_page(), read_text_file(CAVUM_SOURCE_DIR "/docs/measures.md")) << "write it anew: cavum grade --measures > docs/measures.md";
+  EXPECT_EQ(measures_page(), read_text_file(CAVUM_SOURCE_DIR "/docs/measures.md"))
+      << "write it anew: cavum grade --measures > docs/measures.md";
 }
 
 TEST(MeasuresPage, HasARowForEveryMeasure) {
   const std::string page = measures_page();
   for (const auto& m : scenarios::measures())
-    EXPECT_NE(page.find("| `" + (m.tissue.empty() ? m.name : "touched_TISSUE_mm3") + "` |"), std::string::npos) << m.name;
+    EXPECT_NE(page.find("| `" + (m.tissue.empty() ? m.name : "touched_TISSUE_mm3") + "` |"),
+              std::string::npos)
+        << m.name;
 }
 
 }  // namespace

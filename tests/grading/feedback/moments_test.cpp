@@ -1,4 +1,5 @@
-// The moments that `grade --why` lists: the largest of them in order of time, none lost when many are alike.
+// The moments that `grade --why` lists: the largest of them in order of time, none lost when many
+// are alike.
 #include "grading/feedback/moments.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,8 @@ std::vector<WhyItem> items_of(const std::vector<double>& amounts) {
 
 TEST(Moments, TheLargestAreKeptInTheirOrder) {
   std::vector<double> amounts;
-  for (int i = 0; i < 50; ++i) amounts.push_back(i % 7 == 0 ? 100 + i : 50 - i);  // 8 large ones, then the early ones
+  for (int i = 0; i < 50; ++i)
+    amounts.push_back(i % 7 == 0 ? 100 + i : 50 - i);  // 8 large ones, then the early ones
   auto items = items_of(amounts);
   EXPECT_EQ(keep_largest(items).size(), 50 - k_max_moments);
   ASSERT_EQ(items.size(), k_max_moments);
@@ -52,15 +54,16 @@ TEST(Moments, AFewAreLeftAlone) {
 }
 
 TEST(Moments, LeavesLessThanAGapApartAreOneMomentWithAllTheirVolume) {
-  testing::Carved c(testing::scenario_text("[[zones.target]]\nshape = \"ball\"\nat_mm = [0, 0, 0]\nradius_mm = 1\n"),
+  testing::Carved c(testing::scenario_text(
+                        "[[zones.target]]\nshape = \"ball\"\nat_mm = [0, 0, 0]\nradius_mm = 1\n"),
                     testing::dentin_block(2, 2, 0.1));
   c.carve([](Vec3 p) { return length(p - Vec3{-0.8, 0, 0}) - 0.3; }, 10);
   c.carve([](Vec3 p) { return length(p - Vec3{0.8, 0, 0}) - 0.3; }, 10 + k_moment_gap_ticks);
   const std::size_t first_two = c.removed.size();
   c.carve([](Vec3 p) { return length(p - Vec3{0, 1.5, -0.5}) - 0.4; }, 11 + 2 * k_moment_gap_ticks);
   c.carve([](Vec3 p) { return length(p - Vec3{0, -1.5, -0.5}) - 0.4; }, 5000);  // after the end
-  const std::size_t before_end =
-      static_cast<std::size_t>(std::count_if(c.removed.begin(), c.removed.end(), [](const RemovedAt& r) { return r.tick < 5000; }));
+  const std::size_t before_end = static_cast<std::size_t>(std::count_if(
+      c.removed.begin(), c.removed.end(), [](const RemovedAt& r) { return r.tick < 5000; }));
   const auto moments = removal_moments(c.input(), 5000, [](const RemovedAt&) { return true; });
   ASSERT_EQ(moments.size(), 2u);
   EXPECT_EQ(moments[0].tick, 10);

@@ -1,5 +1,6 @@
-// Simulated beginners of several kinds who sit an exam by a way of their own, and sit it again after they heard what to do instead: only what was
-// said is changed, and the hand, its tremor and the seed stay.
+// Simulated beginners of several kinds who sit an exam by a way of their own, and sit it again
+// after they heard what to do instead: only what was said is changed, and the hand, its tremor and
+// the seed stay.
 #pragma once
 
 #include <memory>
@@ -33,7 +34,8 @@ struct Beginner {
   bool perforates = false;
   std::uint64_t seed = 0;
 };
-/// Kinds: leaner (the program's novice), student (student-0 to student-60), deep, wide, timid (opens the middle alone), piercer.
+/// Kinds: leaner (the program's novice), student (student-0 to student-60), deep, wide, timid
+/// (opens the middle alone), piercer.
 [[nodiscard]] Beginner beginner(const std::string& kind, std::uint64_t seed);
 [[nodiscard]] const std::vector<std::string>& beginner_kinds();
 
@@ -45,10 +47,12 @@ struct Sat {
   std::vector<TimedEvent> events;
   Tooth after;
   [[nodiscard]] grading::GradeInput input(const NoviceTask& t) const {
-    return {t.setup->scenario, t.setup->tooth, t.setup->zones, after.octree, inputs, records, removed, events};
+    return {t.setup->scenario, t.setup->tooth, t.setup->zones, after.octree, inputs,
+            records,           removed,        events};
   }
 };
 /// `heard`: what he does otherwise than the first time. `file` is where it is recorded.
-[[nodiscard]] Sat sit(const NoviceTask& task, const Beginner& who, const std::vector<grading::Lesson>& heard, const std::string& file);
+[[nodiscard]] Sat sit(const NoviceTask& task, const Beginner& who,
+                      const std::vector<grading::Lesson>& heard, const std::string& file);
 
 }  // namespace cavum::testing

@@ -1,4 +1,5 @@
-// `grade --why`: for every measure the points of the moments add up to what was lost, whichever way is better, and what they say is what was done.
+// `grade --why`: for every measure the points of the moments add up to what was lost, whichever way
+// is better, and what they say is what was done.
 #include "grading/feedback/why.h"
 
 #include <gtest/gtest.h>
@@ -24,10 +25,12 @@ using testing::k_chamber_target;
 using testing::opening_pulp;
 using testing::scenario_text;
 
-/// A moment in which something was removed: it tells at which wall, or at the opening, the most of it.
+/// A moment in which something was removed: it tells at which wall, or at the opening, the most of
+/// it.
 bool is_removal(const WhyItem& i) {
   for (std::size_t wall = 0; wall <= scenarios::k_walls; ++wall)
-    if (i.unit == "mm3" && i.tick >= 0 && tells(i.what(), scenarios::wall_text(wall, {}))) return true;
+    if (i.unit == "mm3" && i.tick >= 0 && tells(i.what(), scenarios::wall_text(wall, {})))
+      return true;
   return false;
 }
 
@@ -65,15 +68,18 @@ TEST(Why, PointsAddUpToWhatWasLostForEveryMeasureAndBothDirections) {
       const Why w = why(c.input(), r, rubric, "c");
       EXPECT_NEAR(points_of(w), 10 - r.criteria[0].points, 1e-6) << m.name << " " << sign;
       EXPECT_FALSE(w.items.empty()) << m.name;
-      for (const auto& i : w.items) EXPECT_GE(i.points_lost.value_or(0), 0) << m.name << ": " << i.what();
+      for (const auto& i : w.items)
+        EXPECT_GE(i.points_lost.value_or(0), 0) << m.name << ": " << i.what();
     }
 }
 
 TEST(Why, AMomentThatReachesSeveralZonesNamesEachWithItsVolume) {
-  Carved c(scenario_text(
-               "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"circle\", radius_mm = 1 }\nbottom = { kind = \"level\", z_mm = -2 }\n"),
-           dentin_block(4, 4, 0.05));
-  c.carve(box_hole(-0.6, 2.4, -0.6, 0.6, -1.63), 100);  // through leeway and container, 0.6 mm beyond
+  Carved c(
+      scenario_text(
+          "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"circle\", radius_mm = 1 }\nbottom = { kind = \"level\", z_mm = -2 }\n"),
+      dentin_block(4, 4, 0.05));
+  c.carve(box_hole(-0.6, 2.4, -0.6, 0.6, -1.63),
+          100);  // through leeway and container, 0.6 mm beyond
   const Result measured = c.graded();
   scenarios::RubricSpec rubric = half_lost(measured, "overcut_mm3", 1);
   rubric.criteria[0].full = 0;
@@ -82,16 +88,22 @@ TEST(Why, AMomentThatReachesSeveralZonesNamesEachWithItsVolume) {
   mark(r, rubric);
   const Why w = why(c.input(), r, rubric, "c");
   ASSERT_EQ(w.items.size(), 2u);
-  EXPECT_TRUE(tells(w.items[1].what(), 50.0)) << "percent of the work from which on care counts in full: " << w.items[1].what();
+  EXPECT_TRUE(tells(w.items[1].what(), 50.0))
+      << "percent of the work from which on care counts in full: " << w.items[1].what();
   const WhyItem& cut = w.items[0];
   EXPECT_NEAR(*cut.amount, *r.criteria[0].value, 1e-9);
-  EXPECT_TRUE(tells(cut.what(), std::string(scenarios::zone_name(scenarios::Zone::container_sides)))) << cut.what();
+  EXPECT_TRUE(
+      tells(cut.what(), std::string(scenarios::zone_name(scenarios::Zone::container_sides))))
+      << cut.what();
   EXPECT_GE(figures_in(cut.what()).size(), 3u) << "a volume for each zone, and one outside all";
-  EXPECT_TRUE(tells(cut.what(), scenarios::wall_text(static_cast<std::size_t>(scenarios::Wall::mesial), {}))) << cut.what();
+  EXPECT_TRUE(tells(cut.what(),
+                    scenarios::wall_text(static_cast<std::size_t>(scenarios::Wall::mesial), {})))
+      << cut.what();
 }
 
 TEST(Why, MomentsBeginWhereTheReasonSaysAndAddUpToValueAndBound) {
-  Random random(testing_basics::drawn_seed("Why.MomentsBeginWhereTheReasonSaysAndAddUpToValueAndBound"));
+  Random random(
+      testing_basics::drawn_seed("Why.MomentsBeginWhereTheReasonSaysAndAddUpToValueAndBound"));
   for (int round = 0; round < 4; ++round) {
     const std::string guard = "[[zones.protected]]\nshape = \"tissue\"\ntissue = \"pulp\"\n";
     Carved c(scenario_text(k_chamber_target + guard), chambered_block(0.1));
@@ -103,8 +115,10 @@ TEST(Why, MomentsBeginWhereTheReasonSaysAndAddUpToValueAndBound) {
       tick += 1 + static_cast<std::int64_t>(random.uniform(0, 1500));
     }
     const Result measured = c.graded();
-    for (const char* metric : {"leeway_sides_mm3", "leeway_bottom_mm3", "container_sides_mm3", "container_bottom_mm3", "container_mm3", "outside_mm3",
-                               "protected_mm3", "overcut_mm3", "removed_mm3", "touched_dentin_mm3", "touched_pulp_mm3"}) {
+    for (const char* metric :
+         {"leeway_sides_mm3", "leeway_bottom_mm3", "container_sides_mm3", "container_bottom_mm3",
+          "container_mm3", "outside_mm3", "protected_mm3", "overcut_mm3", "removed_mm3",
+          "touched_dentin_mm3", "touched_pulp_mm3"}) {
       scenarios::RubricSpec rubric = half_lost(measured, metric, -1);
       Result r = measured;
       mark(r, rubric);
@@ -119,7 +133,10 @@ TEST(Why, MomentsBeginWhereTheReasonSaysAndAddUpToValueAndBound) {
         if (first < 0 || i.tick < first) first = i.tick;
       }
       EXPECT_NEAR(sum, *r.criteria[0].value, 1e-9) << metric;
-      if (w.left_out == 0 && metric == std::string("removed_mm3")) {  // between zones that both went nothing is uncertain of the sum
+      if (w.left_out == 0 &&
+          metric ==
+              std::string(
+                  "removed_mm3")) {  // between zones that both went nothing is uncertain of the sum
         EXPECT_GE(bound, r.criteria[0].bound) << metric;
       } else if (w.left_out == 0) {
         EXPECT_NEAR(bound, r.criteria[0].bound, 1e-9) << metric;
@@ -132,11 +149,13 @@ TEST(Why, MomentsBeginWhereTheReasonSaysAndAddUpToValueAndBound) {
 }
 
 TEST(Why, SaysWhichMomentUsedUpWhatCostsNothing) {
-  Carved c(scenario_text(
-               "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"circle\", radius_mm = 1 }\nbottom = { kind = \"level\", z_mm = -2 }\n"),
-           dentin_block(4, 4, 0.05));
+  Carved c(
+      scenario_text(
+          "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"circle\", radius_mm = 1 }\nbottom = { kind = \"level\", z_mm = -2 }\n"),
+      dentin_block(4, 4, 0.05));
   c.carve(box_hole(-0.6, 0.6, -0.6, 0.6, -2), 10);
-  c.carve(box_hole(2.2, 2.7, -0.5, 0.5, -0.4), 1000);  // 0.2 mm3 outside, then four times as much, then again
+  c.carve(box_hole(2.2, 2.7, -0.5, 0.5, -0.4),
+          1000);  // 0.2 mm3 outside, then four times as much, then again
   c.carve(box_hole(2.2, 3.2, -0.5, 0.5, -1), 2000);
   c.carve(box_hole(2.2, 3.2, -0.5, 0.5, -2), 3000);
   scenarios::RubricSpec rubric = half_lost(c.graded(), "outside_mm3", -1);
@@ -148,9 +167,12 @@ TEST(Why, SaysWhichMomentUsedUpWhatCostsNothing) {
   std::vector<double> limits;
   for (const auto& i : w.items)
     if (i.tick >= 1000 && is_removal(i)) limits.push_back(figures_in(i.what()).back());
-  EXPECT_EQ(limits, (std::vector<double>{0.5, 0.5, 0.9})) << "within what costs nothing, beyond it, and beyond what leaves no points";
+  EXPECT_EQ(limits, (std::vector<double>{0.5, 0.5, 0.9}))
+      << "within what costs nothing, beyond it, and beyond what leaves no points";
   const auto cells = cells_of(to_text(w));
-  EXPECT_TRUE(std::any_of(cells.begin(), cells.end(), [](const Message& m) { return figures_in(m) == std::vector<double>{0.5, 0.9}; }));
+  EXPECT_TRUE(std::any_of(cells.begin(), cells.end(), [](const Message& m) {
+    return figures_in(m) == std::vector<double>{0.5, 0.9};
+  }));
 }
 
 TEST(Why, EveryLineThatCostsPointsHasItsTick) {
@@ -181,12 +203,15 @@ TEST(Why, AnAimThatTheForceDidNotSeeIsSaid) {
   Result seen = r;
   seen.perforation.events.emplace_back().confirmed = true;
   ASSERT_FALSE(seen.perforation.aim_unseen());
-  EXPECT_EQ(why(c.input(), r, rubric, "c").items.size(), why(c.input(), seen, rubric, "c").items.size() + 1) << "no event, and that it was not seen";
+  EXPECT_EQ(why(c.input(), r, rubric, "c").items.size(),
+            why(c.input(), seen, rubric, "c").items.size() + 1)
+      << "no event, and that it was not seen";
 }
 
 TEST(Why, RoofAndCanalsHaveTheirPlacesAndWhenTheyWereLastNearlyReached) {
   Carved c(opening_pulp(k_chamber_target), chambered_block(0.05));
-  c.carve(box_hole(-1.5, 0.5, -1, 1, -4.5), 77);  // a millimetre of roof stays, over one canal of two
+  c.carve(box_hole(-1.5, 0.5, -1, 1, -4.5),
+          77);  // a millimetre of roof stays, over one canal of two
   const Result measured = c.graded();
   for (const char* metric : {"overhang_mm3", "canals_covered_percent"}) {
     scenarios::RubricSpec rubric = half_lost(measured, metric, -1);
@@ -197,7 +222,8 @@ TEST(Why, RoofAndCanalsHaveTheirPlacesAndWhenTheyWereLastNearlyReached) {
     EXPECT_EQ(w.items[0].tick, 77) << metric;
     const auto* middle = std::get_if<Vec3>(&w.items[0].facts[0].what().values().at(0));
     ASSERT_NE(middle, nullptr) << w.items[0].what();
-    EXPECT_NEAR(middle->x, 1.0, 0.1) << "of the roof 0.996, less a horn of 0.15 mm3 at 1.15; of the mouth 1.0";
+    EXPECT_NEAR(middle->x, 1.0, 0.1)
+        << "of the roof 0.996, less a horn of 0.15 mm3 at 1.15; of the mouth 1.0";
   }
   const scenarios::RubricSpec rubric = half_lost(measured, "overhang_mm3", -1);
   Result r = measured;
@@ -209,7 +235,8 @@ TEST(Why, IdleTimeIsListedInSpansThatAddUpToIt) {
   Carved c(scenario_text(k_chamber_target), dentin_block(4, 5, 0.1));
   for (int i = 0; i < 3000; ++i) {
     TickInput in;
-    in.tip_nm = {i >= 1000 && i < 1600 ? (i - 1000) * 2000 : 1200000, 0, 4000000};  // it moves for 0.6 s; 1.0 s and 1.4 s rest
+    in.tip_nm = {i >= 1000 && i < 1600 ? (i - 1000) * 2000 : 1200000, 0,
+                 4000000};  // it moves for 0.6 s; 1.0 s and 1.4 s rest
     if (i < 1000) in.tip_nm[0] = 0;
     c.inputs.push_back(in);
     c.records.emplace_back();
@@ -241,7 +268,8 @@ TEST(Why, TicksThatFollowEachOtherAreOneStretch) {
   Result r = c.graded();
   mark(r, rubric);
   std::size_t stretches = 0;
-  for (const auto& i : why(c.input(), r, rubric, "c").items) stretches += i.end_tick > i.tick ? 1 : 0;
+  for (const auto& i : why(c.input(), r, rubric, "c").items)
+    stretches += i.end_tick > i.tick ? 1 : 0;
   EXPECT_EQ(stretches, 2u);
 }
 

@@ -26,16 +26,21 @@ using testing::round_hole;
 using testing::scenario_text;
 
 std::string round_target(double radius, double depth) {
-  return "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"circle\", radius_mm = " + std::to_string(radius) +
-         " }\nbottom = { kind = \"level\", z_mm = -" + std::to_string(depth) + " }\n";
+  return "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"circle\", radius_mm = " +
+         std::to_string(radius) + " }\nbottom = { kind = \"level\", z_mm = -" +
+         std::to_string(depth) + " }\n";
 }
 const char k_box_target[] =
     "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"polygon\", points_mm = [[-1.5, -1], [1.5, -1], [1.5, 1], [-1.5, 1]] }\nbottom = { "
     "kind = \"level\", z_mm = -2 }\n";
 
-const BoundedVolume& zone_volume(const Result& r, scenarios::Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].removed; }
+const BoundedVolume& zone_volume(const Result& r, scenarios::Zone z) {
+  return r.volumes.zone[static_cast<std::size_t>(z)].removed;
+}
 Term side_text(scenarios::Wall w) { return scenarios::wall_text(static_cast<std::size_t>(w), {}); }
-const WallMeasures& wall(const Result& r, scenarios::Wall w) { return r.shape.wall[static_cast<std::size_t>(w)]; }
+const WallMeasures& wall(const Result& r, scenarios::Wall w) {
+  return r.shape.wall[static_cast<std::size_t>(w)];
+}
 
 TEST(Grade, KnownCylinderGivesKnownVolumesWithinTheirBounds) {
   Carved c(scenario_text(round_target(1.5, 2)), dentin_block(4, 4, 0.05));
@@ -51,7 +56,8 @@ TEST(Grade, KnownCylinderGivesKnownVolumesWithinTheirBounds) {
   double sum = 0;
   for (const auto& z : r.volumes.zone) sum += z.removed.mm3;
   EXPECT_NEAR(sum, r.volumes.removed.mm3, 1e-9);  // every removed leaf lies in exactly one zone
-  // the ring of the leeway beside the target: 1.5 to 1.7 mm, down to the floor and the corner of its bottom
+  // the ring of the leeway beside the target: 1.5 to 1.7 mm, down to the floor and the corner of
+  // its bottom
   const double ring = std::numbers::pi * (1.7 * 1.7 - 1.5 * 1.5) * 2;
   EXPECT_NEAR(zone_volume(r, scenarios::Zone::leeway_sides).mm3, ring, 0.12 * ring);
   const double under = std::numbers::pi * 2.25 * 0.3;
@@ -59,9 +65,11 @@ TEST(Grade, KnownCylinderGivesKnownVolumesWithinTheirBounds) {
 }
 
 TEST(Grade, WhatIsLeftInTheMiddleIsAsThickAsItLiesDeepInTheTarget) {
-  // a ring cut out of a round target: the column left in it is seen from a surface 0.9 mm from the wall, its middle lies 1.5 mm from it
+  // a ring cut out of a round target: the column left in it is seen from a surface 0.9 mm from the
+  // wall, its middle lies 1.5 mm from it
   Carved c(scenario_text(round_target(1.5, 2)), dentin_block(4, 4, 0.05));
-  c.carve([](Vec3 p) { return std::max(round_hole(0, 0, 1.5, -2)(p), 0.6 - std::hypot(p.x, p.y)); }, 0);
+  c.carve([](Vec3 p) { return std::max(round_hole(0, 0, 1.5, -2)(p), 0.6 - std::hypot(p.x, p.y)); },
+          0);
   const Result r = c.graded();
   double most = 0;
   for (const auto& w : r.shape.wall)
@@ -71,7 +79,9 @@ TEST(Grade, WhatIsLeftInTheMiddleIsAsThickAsItLiesDeepInTheTarget) {
   for (const char* side : {"mesial", "distal", "buccal", "lingual"}) {
     const auto& w = seen["walls"][side];
     EXPECT_TRUE(w["max_under_tick"].is_null()) << "the middle was never cut";
-    EXPECT_LT(std::hypot(w["max_under_site_mm"][0].get<double>(), w["max_under_site_mm"][1].get<double>()), 0.15);
+    EXPECT_LT(std::hypot(w["max_under_site_mm"][0].get<double>(),
+                         w["max_under_site_mm"][1].get<double>()),
+              0.15);
   }
 }
 
@@ -108,8 +118,14 @@ TEST(Grade, SurfaceIsFoundBetweenLeaves) {
 TEST(Grade, TaperIsMeasuredToADegree) {
   for (const double degrees : {-6.0, 3.0, 8.0, 15.0}) {
     Carved c(scenario_text(round_target(1.5, 2)), dentin_block(4, 3, 0.05));
-    const double t = std::tan(degrees * std::numbers::pi / 180), cosine = std::cos(degrees * std::numbers::pi / 180);
-    c.carve([&](Vec3 p) { return std::max((std::sqrt(p.x * p.x + p.y * p.y) - 1.5 - t * (p.z + 2)) * cosine, -2 - p.z); }, 0);
+    const double t = std::tan(degrees * std::numbers::pi / 180),
+                 cosine = std::cos(degrees * std::numbers::pi / 180);
+    c.carve(
+        [&](Vec3 p) {
+          return std::max((std::sqrt(p.x * p.x + p.y * p.y) - 1.5 - t * (p.z + 2)) * cosine,
+                          -2 - p.z);
+        },
+        0);
     EXPECT_NEAR(*c.graded().shape.taper_deg, degrees, 1.0);
   }
 }
@@ -135,7 +151,8 @@ TEST(Grade, MissedTargetNamesItsWall) {
   c.carve(box_hole(-1.0, 1.5, -1, 1, -2), 0);
   const Result r = c.graded();
   EXPECT_NEAR(r.volumes.missed.mm3, 0.5 * 2 * 2, 0.03);
-  EXPECT_TRUE(tells(r.criteria.at(0).reason(), side_text(scenarios::Wall::distal))) << r.criteria[0].reason();
+  EXPECT_TRUE(tells(r.criteria.at(0).reason(), side_text(scenarios::Wall::distal)))
+      << r.criteria[0].reason();
 }
 
 TEST(Grade, ResultIsTheSameTwice) {
@@ -148,7 +165,12 @@ TEST(Grade, PointsRunLinearlyFromFullToZero) {
   Result r;
   scenarios::RubricSpec rubric;
   rubric.criteria = {{"t", "t", "time_s", 100, 300, 10, {}, {}}};
-  for (const auto& [time, points] : {std::pair{50.0, 10.0}, {100.0, 10.0}, {150.0, 7.5}, {200.0, 5.0}, {300.0, 0.0}, {400.0, 0.0}}) {
+  for (const auto& [time, points] : {std::pair{50.0, 10.0},
+                                     {100.0, 10.0},
+                                     {150.0, 7.5},
+                                     {200.0, 5.0},
+                                     {300.0, 0.0},
+                                     {400.0, 0.0}}) {
     r.motion.time_s = time;
     mark(r, rubric);
     EXPECT_NEAR(r.points, points, 1e-12) << time;
@@ -157,7 +179,8 @@ TEST(Grade, PointsRunLinearlyFromFullToZero) {
 
 TEST(Grade, TimeIsMarkedOnLimitsStretchedByWhatWasGranted) {
   scenarios::RubricSpec rubric;
-  rubric.criteria = {{"t", "t", "time_s", 300, 540, 5, 600.0, {}}, {"h", "h", "handpiece_time_s", 300, 540, 5, {}, {}}};
+  rubric.criteria = {{"t", "t", "time_s", 300, 540, 5, 600.0, {}},
+                     {"h", "h", "handpiece_time_s", 300, 540, 5, {}, {}}};
   const auto marked = [&](double time_s, double extra_percent, double extra_s) {
     constexpr double k_own_s = 480;
     Result r;
@@ -168,7 +191,8 @@ TEST(Grade, TimeIsMarkedOnLimitsStretchedByWhatWasGranted) {
     mark(r, rubric);
     return r;
   };
-  for (const double share : {0.5, 0.7, 0.9, 1.0}) {  // of the limit: the same points, whatever was granted
+  for (const double share :
+       {0.5, 0.7, 0.9, 1.0}) {  // of the limit: the same points, whatever was granted
     const double points = marked(480 * share, 0, 0).criteria[0].points;
     EXPECT_NEAR(points, 5 * std::clamp((540 - 480 * share) / 240, 0.0, 1.0), 1e-9);
     EXPECT_NEAR(marked(960 * share, 100, 0).criteria[0].points, points, 1e-9) << share;
@@ -177,21 +201,25 @@ TEST(Grade, TimeIsMarkedOnLimitsStretchedByWhatWasGranted) {
     EXPECT_NEAR(marked(840 * share, 25, 240).criteria[0].points, points, 1e-9) << share;
   }
   const Result twice = marked(900, 100, 0);
-  for (const double figure : {900.0, 600.0, 2.0}) EXPECT_TRUE(tells(twice.criteria[0].reason(), figure)) << figure;
+  for (const double figure : {900.0, 600.0, 2.0})
+    EXPECT_TRUE(tells(twice.criteria[0].reason(), figure)) << figure;
   EXPECT_FALSE(twice.criteria[0].critical_failed) << "1200 s would fail";
   EXPECT_TRUE(marked(1201, 100, 0).criteria[0].critical_failed);
   EXPECT_TRUE(marked(601, 0, 0).criteria[0].critical_failed);
   EXPECT_EQ(twice.criteria[1].points, 0) << "of the exam's time alone";
   EXPECT_FALSE(tells(twice.criteria[1].reason(), 2.0));
   EXPECT_FALSE(tells(marked(400, 0, 0).criteria[0].reason(), 2.0));
-  EXPECT_EQ(figures_in(msg("{}", marked(400, 100, 0).criteria[0].reason())), (std::vector<double>{2})) << "full marks, by stretched limits";
+  EXPECT_EQ(figures_in(msg("{}", marked(400, 100, 0).criteria[0].reason())),
+            (std::vector<double>{2}))
+      << "full marks, by stretched limits";
 }
 
 TEST(Grade, VerdictFollowsRuleBandAndCriticalCriteria) {
   Result r;
   r.motion.time_s = 200;
   scenarios::RubricSpec rubric;
-  rubric.criteria = {{"t", "t", "time_s", 100, 300, 10, {}, {}}, {"f", "f", "force_peak_n", 0, 1, 10, {}, {}}};
+  rubric.criteria = {{"t", "t", "time_s", 100, 300, 10, {}, {}},
+                     {"f", "f", "force_peak_n", 0, 1, 10, {}, {}}};
   const auto verdict = [&](double pass, double band, bool compensatory) {
     rubric.pass_percent = pass;
     rubric.borderline_percent = band;
@@ -209,7 +237,8 @@ TEST(Grade, VerdictFollowsRuleBandAndCriticalCriteria) {
 }
 
 bool has(const Result& r, FindingKind kind) {
-  return std::any_of(r.verdict_reasons.begin(), r.verdict_reasons.end(), [&](const Finding& f) { return f.kind == kind; });
+  return std::any_of(r.verdict_reasons.begin(), r.verdict_reasons.end(),
+                     [&](const Finding& f) { return f.kind == kind; });
 }
 
 TEST(Verdict, SaysWhatItsOwnBoundsLeaveOpen) {
@@ -227,7 +256,8 @@ TEST(Verdict, SaysWhatItsOwnBoundsLeaveOpen) {
   EXPECT_TRUE(has(marked(160, 30), FindingKind::bound_crosses));
   EXPECT_TRUE(has(marked(200, 30), FindingKind::bound_crosses));  // a fail, too
   rubric.criteria[0].critical_above = 170;
-  for (const auto& [time_s, bound_s, failed, open] : {std::tuple(160., 30., false, true), {180., 30., true, true}, {160., 5., false, false}}) {
+  for (const auto& [time_s, bound_s, failed, open] :
+       {std::tuple(160., 30., false, true), {180., 30., true, true}, {160., 5., false, false}}) {
     const CriterionResult c = marked(time_s, bound_s).criteria.at(0);
     EXPECT_EQ(c.critical_failed, failed) << time_s;
     EXPECT_EQ(c.limit_in_bound, open) << time_s;
@@ -244,7 +274,8 @@ TEST(Verdict, AFailByACriticalCriterionSaysThatThePointsWouldBeEnough) {
   mark(r, rubric);
   EXPECT_EQ(r.verdict, Verdict::fail);
   EXPECT_EQ(r.verdict_reasons,
-            (Findings{finding<FindingKind::critical_limit>("t"), finding<FindingKind::sum_reaches>(as_percent(50, 1), as_percent(40, 1)),
+            (Findings{finding<FindingKind::critical_limit>("t"),
+                      finding<FindingKind::sum_reaches>(as_percent(50, 1), as_percent(40, 1)),
                       finding<FindingKind::enough_alone>()}));
 }
 
@@ -311,7 +342,8 @@ TEST(Verdict, WhatBoundsLeaveOpenIsReviewedWhereTheRubricSaysSo) {
   const double percent = 100 * r.points / r.max_points, bound = 100 * r.points_bound / r.max_points;
   ASSERT_GT(bound, 2);
   for (const bool asked : {false, true})
-    for (const auto& [mark_at, otherwise] : {std::pair{percent - bound / 2, Verdict::pass}, {percent + bound / 2, Verdict::fail}}) {
+    for (const auto& [mark_at, otherwise] :
+         {std::pair{percent - bound / 2, Verdict::pass}, {percent + bound / 2, Verdict::fail}}) {
       rubric.review_within_bound = asked;
       rubric.pass_percent = mark_at;
       mark(r, rubric);
@@ -324,7 +356,8 @@ TEST(Verdict, WhatBoundsLeaveOpenIsReviewedWhereTheRubricSaysSo) {
   mark(r, rubric);
   EXPECT_EQ(r.verdict, Verdict::pass);
   const double time_s = *r.criteria[0].value;
-  for (const double limit : {time_s - 5, time_s + 5}) {  // a limit within the figure's bound, on either side
+  for (const double limit :
+       {time_s - 5, time_s + 5}) {  // a limit within the figure's bound, on either side
     rubric.criteria[0].critical_above = limit;
     mark(r, rubric);
     EXPECT_EQ(r.verdict, Verdict::review) << limit;
@@ -384,11 +417,13 @@ points = 20
   c.carve(box_hole(-1.5, 1.5, -1, 1, -0.4), 1);  // a fifth of it: two fifths of the points for care
   const Result part = c.graded();
   EXPECT_NEAR(part.criteria.at(3).points, 8, 0.1);
-  EXPECT_TRUE(tells(part.criteria[3].reason(), 50.0)) << "percent from which on care counts in full";
+  EXPECT_TRUE(tells(part.criteria[3].reason(), 50.0))
+      << "percent from which on care counts in full";
   c.carve(box_hole(-1.5, 1.5, -1, 1, -1.1), 2);
   const Result most = c.graded();
   for (std::size_t i = 1; i < most.criteria.size(); ++i)
-    EXPECT_EQ(most.criteria[i].facts, Findings{finding<FindingKind::full_marks>()}) << most.criteria[i].id;
+    EXPECT_EQ(most.criteria[i].facts, Findings{finding<FindingKind::full_marks>()})
+        << most.criteria[i].id;
 }
 
 TEST(Grade, WhatWasCutBelowTheFloorCountsByAllOfTheWorkADistanceByThatTowardsTheWall) {
@@ -396,7 +431,8 @@ TEST(Grade, WhatWasCutBelowTheFloorCountsByAllOfTheWorkADistanceByThatTowardsThe
       "[[rubric.criteria]]\nid = \"cut\"\nmetric = \"floor_cut_mm3\"\nfull = 0\nzero = 5\npoints = 20\n"
       "[[rubric.criteria]]\nid = \"deep\"\nmetric = \"floor_max_over_mm\"\nfull = 0\nzero = 5\npoints = 20\n";
   Carved c(scenario_text(k_box_target, care), dentin_block(4, 4, 0.1));
-  c.carve(box_hole(-1.5, 1.5, -1, 1, -1.2), 1);  // three fifths of the target, and little of what lies near its floor
+  c.carve(box_hole(-1.5, 1.5, -1, 1, -1.2),
+          1);  // three fifths of the target, and little of what lies near its floor
   const Result r = c.graded();
   const auto& cut = r.criteria.at(r.criteria.size() - 2);
   EXPECT_DOUBLE_EQ(cut.points, 20) << cut.reason();
@@ -404,7 +440,8 @@ TEST(Grade, WhatWasCutBelowTheFloorCountsByAllOfTheWorkADistanceByThatTowardsThe
 }
 
 TEST(Grade, AFigureOfSeveralWallsIsSaidOfTheWallThatHasIt) {
-  const std::string walls = "[[rubric.criteria]]\nid = \"walls\"\nmetric = \"side_walls_p95_mm\"\nfull = 0.1\nzero = 0.9\npoints = 20\n";
+  const std::string walls =
+      "[[rubric.criteria]]\nid = \"walls\"\nmetric = \"side_walls_p95_mm\"\nfull = 0.1\nzero = 0.9\npoints = 20\n";
   Carved c(scenario_text(k_box_target, walls), dentin_block(4, 4, 0.05));
   c.carve(box_hole(-1.5, 2.0, -1, 1, -2), 100);         // the whole mesial wall by 0.5 mm
   c.carve(box_hole(0, 0.2, 0, 1.8, -0.3), 200);         // a notch of 0.8 mm in the buccal one
@@ -413,19 +450,23 @@ TEST(Grade, AFigureOfSeveralWallsIsSaidOfTheWallThatHasIt) {
   const auto& walls_result = r.criteria.back();
   EXPECT_GT(wall(r, scenarios::Wall::buccal).max_over_mm, 0.75);
   EXPECT_NEAR(*walls_result.value, 0.5, 0.05);
-  EXPECT_TRUE(tells(walls_result.reason(), side_text(scenarios::Wall::mesial))) << walls_result.reason();
+  EXPECT_TRUE(tells(walls_result.reason(), side_text(scenarios::Wall::mesial)))
+      << walls_result.reason();
   EXPECT_EQ(walls_result.first.tick, 100);
   // and its bound is what the walls together leave open, not the widest of them
   double low = -1e9, high = -1e9;
-  for (const scenarios::Wall w : {scenarios::Wall::mesial, scenarios::Wall::distal, scenarios::Wall::buccal, scenarios::Wall::lingual}) {
+  for (const scenarios::Wall w : {scenarios::Wall::mesial, scenarios::Wall::distal,
+                                  scenarios::Wall::buccal, scenarios::Wall::lingual}) {
     low = std::max(low, wall(r, w).p95_mm - wall(r, w).p95_bound_mm);
     high = std::max(high, wall(r, w).p95_mm + wall(r, w).p95_bound_mm);
   }
-  EXPECT_NEAR(walls_result.bound, std::max(high - *walls_result.value, *walls_result.value - low), 1e-12);
+  EXPECT_NEAR(walls_result.bound, std::max(high - *walls_result.value, *walls_result.value - low),
+              1e-12);
 }
 
 TEST(Grade, AnErrorOfTheOutlineIsSaidEndByEnd) {
-  const std::string length = "[[rubric.criteria]]\nid = \"l\"\nmetric = \"outline_length_error_mm\"\nfull = 0.1\nzero = 2\npoints = 20\n";
+  const std::string length =
+      "[[rubric.criteria]]\nid = \"l\"\nmetric = \"outline_length_error_mm\"\nfull = 0.1\nzero = 2\npoints = 20\n";
   Carved c(scenario_text(k_box_target, length), dentin_block(4, 4, 0.05));
   c.carve(box_hole(-1.1, 1.8, -1, 1, -2), 100);  // 0.3 mm too far mesially, 0.4 mm short distally
   const Result r = c.graded();
@@ -434,7 +475,8 @@ TEST(Grade, AnErrorOfTheOutlineIsSaidEndByEnd) {
   EXPECT_NEAR(r.shape.end_error[0].beyond_mm, 0.3, 0.05);
   EXPECT_NEAR(r.shape.end_error[1].part_mm, 0.4, 0.05);
   EXPECT_NEAR(r.shape.end_error[1].beyond_mm, -0.4, 0.05);
-  EXPECT_TRUE(tells(r.criteria.back().reason(), r.shape.end_error[1].part_mm)) << r.criteria.back().reason();
+  EXPECT_TRUE(tells(r.criteria.back().reason(), r.shape.end_error[1].part_mm))
+      << r.criteria.back().reason();
 }
 
 TEST(Grade, SmallFiguresHaveTheDigitsThatTellThemFromFullMarks) {
@@ -444,7 +486,8 @@ TEST(Grade, SmallFiguresHaveTheDigitsThatTellThemFromFullMarks) {
   r.motion.time_s = 0.0012;
   mark(r, rubric);
   const std::string told = english_text(r.criteria[0].reason());
-  for (const char* figure : {"0.0012 s", "0.0010 s"}) EXPECT_NE(told.find(figure), std::string::npos) << told;
+  for (const char* figure : {"0.0012 s", "0.0010 s"})
+    EXPECT_NE(told.find(figure), std::string::npos) << told;
 }
 
 TEST(Grade, WhoRestsInContactWithTheHandpieceOffIsIdle) {
@@ -465,13 +508,17 @@ TEST(Grade, AStepThatRanOutOfItsTimeIsNamedWithItsLimit) {
   c.events.push_back({5999, StepTimeUp{}});
   c.events.push_back({5999, Finished{Finish::time}});
   const Findings notes = c.graded().notes;
-  const Finding wanted = finding<FindingKind::step_timed_out>(c.scenario.steps[0].id, as_s(5999 * k_tick_s), as_s(6000 * k_tick_s, 3), 5999);
+  const Finding wanted = finding<FindingKind::step_timed_out>(
+      c.scenario.steps[0].id, as_s(5999 * k_tick_s), as_s(6000 * k_tick_s, 3), 5999);
   EXPECT_EQ(std::count(notes.begin(), notes.end(), wanted), 1);
 }
 
 TEST(Grade, AWallThatIsGoneAltogetherIsOvercutNotKept) {
-  Carved c(scenario_text(k_box_target, "[[rubric.criteria]]\nid = \"gouge\"\nmetric = \"mesial_max_over_mm\"\nfull = 0\nzero = 5\npoints = 20\n"),
-           dentin_block(4, 4, 0.1));
+  Carved c(
+      scenario_text(
+          k_box_target,
+          "[[rubric.criteria]]\nid = \"gouge\"\nmetric = \"mesial_max_over_mm\"\nfull = 0\nzero = 5\npoints = 20\n"),
+      dentin_block(4, 4, 0.1));
   c.carve(box_hole(-1.5, 3.5, -1, 1, -2), 0);
   const double before = *c.graded().criteria.back().value;
   EXPECT_NEAR(before, 2.0, 0.1);
@@ -482,7 +529,8 @@ TEST(Grade, AWallThatIsGoneAltogetherIsOvercutNotKept) {
 TEST(Grade, WhatIsDoneAfterTheEndDoesNotCount) {
   Carved c(scenario_text(k_box_target), dentin_block(4, 4, 0.1));
   c.carve(box_hole(-1.5, 1.5, -1, 1, -1), 10);
-  const double before = static_cast<double>(c.removed.size()) * c.zones.leaf_volume_mm3();  // whole leaves: see measure_volumes
+  const double before = static_cast<double>(c.removed.size()) *
+                        c.zones.leaf_volume_mm3();  // whole leaves: see measure_volumes
   c.carve(box_hole(-1.5, 1.5, -1, 1, -3), 20);
   c.events.push_back({15, Finished{Finish::time}});
   const Result r = c.graded();
@@ -502,7 +550,8 @@ TEST(Grade, PausesAreTakenOffTheTimeToTheTickAndListed) {
   c.events.push_back({300, PauseRefused{1}});
   const Result r = c.graded();
   EXPECT_NEAR(whole.motion.time_s - r.motion.time_s, 0.150, 1e-12);
-  EXPECT_DOUBLE_EQ(whole.motion.idle_s - r.motion.idle_s, 0.2);  // two tenths of a second lie in the pause, at least in part
+  EXPECT_DOUBLE_EQ(whole.motion.idle_s - r.motion.idle_s,
+                   0.2);  // two tenths of a second lie in the pause, at least in part
   ASSERT_EQ(r.pauses.size(), 1u);
   EXPECT_EQ(r.pauses[0].begin, 100);
   EXPECT_EQ(r.pauses[0].end, 250);
@@ -551,8 +600,12 @@ TEST(Grade, TruthOfAPerforationBeginsWithTheFirstFaceOfAFaultTissue) {
 
 TEST(Grade, ProtectedTissueCountsAsProtectedBeyondTheContainer) {
   const std::string guard = "[[zones.protected]]\nshape = \"tissue\"\ntissue = \"pulp\"\n";
-  Carved c(scenario_text(guard + "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, 0]\nsize_mm = [1, 1, 1]\n"), chambered_block(0.1));
-  c.carve(box_hole(-0.5, 0.5, -0.5, 0.5, -4), 1);  // the container ends at -1.2; the pulp's roof lies at -3
+  Carved c(
+      scenario_text(guard +
+                    "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, 0]\nsize_mm = [1, 1, 1]\n"),
+      chambered_block(0.1));
+  c.carve(box_hole(-0.5, 0.5, -0.5, 0.5, -4),
+          1);  // the container ends at -1.2; the pulp's roof lies at -3
   const Result r = c.graded();
   EXPECT_NEAR(zone_volume(r, scenarios::Zone::protected_).mm3, 1, 0.05);
   EXPECT_NEAR(*metric_value(r, "protected_mm3").value, 1, 0.05);
@@ -560,12 +613,14 @@ TEST(Grade, ProtectedTissueCountsAsProtectedBeyondTheContainer) {
   double sum = 0;
   for (const auto& z : r.volumes.zone) sum += z.removed.mm3;
   EXPECT_NEAR(sum, r.volumes.removed.mm3, 1e-9);
-  // outside is R without T, L and C, and what is protected is none of these: a hole of 1 mm2 from the container's end to its floor
+  // outside is R without T, L and C, and what is protected is none of these: a hole of 1 mm2 from
+  // the container's end to its floor
   EXPECT_NEAR(*metric_value(r, "outside_mm3").value, 4 - 1.2, 0.05);
   EXPECT_NEAR(to_json(r)["volumes"]["outside_mm3"].get<double>(), 4 - 1.2, 0.05);
   double others = 0;
-  for (const scenarios::Zone z : {scenarios::Zone::target, scenarios::Zone::leeway_sides, scenarios::Zone::leeway_bottom,
-                                  scenarios::Zone::container_sides, scenarios::Zone::container_bottom})
+  for (const scenarios::Zone z :
+       {scenarios::Zone::target, scenarios::Zone::leeway_sides, scenarios::Zone::leeway_bottom,
+        scenarios::Zone::container_sides, scenarios::Zone::container_bottom})
     others += zone_volume(r, z).mm3;
   EXPECT_NEAR(*metric_value(r, "outside_mm3").value, r.volumes.removed.mm3 - others, 1e-9);
   EXPECT_EQ(r.volumes.zone[static_cast<std::size_t>(scenarios::Zone::protected_)].first.tick, 1);
@@ -621,7 +676,8 @@ TEST(Grade, EveryNamedMetricCanBeComputed) {
   Carved c(scenario_text(k_box_target), chambered_block(0.1));
   c.carve(box_hole(-0.5, 0.5, -0.5, 0.5, -3.2), 1);
   const Result r = c.graded();
-  for (const auto& m : scenarios::measures()) EXPECT_NO_THROW(static_cast<void>(metric_value(r, m.name))) << m.name;
+  for (const auto& m : scenarios::measures())
+    EXPECT_NO_THROW(static_cast<void>(metric_value(r, m.name))) << m.name;
   EXPECT_THROW(static_cast<void>(metric_value(r, "nonsense")), Error);
 }
 

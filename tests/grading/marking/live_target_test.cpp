@@ -1,4 +1,5 @@
-// What a step's condition sees of the target while the exam runs, against what is graded of the same cut.
+// What a step's condition sees of the target while the exam runs, against what is graded of the
+// same cut.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -30,13 +31,16 @@ struct Live {
 };
 
 TEST(LiveTarget, IsTheGradedFigureWithinItsBoundWhateverIsCut) {
-  Random random(testing_basics::drawn_seed("LiveTarget.IsTheGradedFigureWithinItsBoundWhateverIsCut"));
+  Random random(
+      testing_basics::drawn_seed("LiveTarget.IsTheGradedFigureWithinItsBoundWhateverIsCut"));
   double worst = 0, worst_share = 0;
   for (int round = 0; round < 5; ++round) {
     char target[200];
-    std::snprintf(target, sizeof target,
-                  "[[zones.target]]\nshape = \"box\"\nat_mm = [%.4f, %.4f, -1]\nsize_mm = [%.4f, %.4f, 2.5]\nturn_deg = %.2f\n",
-                  random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(1.2, 3), random.uniform(1.2, 3), random.uniform(0, 90));
+    std::snprintf(
+        target, sizeof target,
+        "[[zones.target]]\nshape = \"box\"\nat_mm = [%.4f, %.4f, -1]\nsize_mm = [%.4f, %.4f, 2.5]\nturn_deg = %.2f\n",
+        random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(1.2, 3),
+        random.uniform(1.2, 3), random.uniform(0, 90));
     Carved c(testing::scenario_text(target), testing::dentin_block(3, 4, 0.1));
     c.scenario.steps[0].complete_when = "time_s > 1000";
     Live live(c);
@@ -47,10 +51,13 @@ TEST(LiveTarget, IsTheGradedFigureWithinItsBoundWhateverIsCut) {
       const Result r = c.graded();
       const double apart = std::fabs(live.percent(c) - r.volumes.target_removed_percent);
       worst = std::max(worst, apart);
-      if (r.volumes.target_removed_bound_percent > 0) worst_share = std::max(worst_share, apart / r.volumes.target_removed_bound_percent);
-      // The bound counts whole leaves of the target: where none went it is 0, though the live figure gives slivers of leaves on the border to it.
+      if (r.volumes.target_removed_bound_percent > 0)
+        worst_share = std::max(worst_share, apart / r.volumes.target_removed_bound_percent);
+      // The bound counts whole leaves of the target: where none went it is 0, though the live
+      // figure gives slivers of leaves on the border to it.
       const double leaf_percent = 100 * c.zones.leaf_volume_mm3() / r.volumes.target.mm3;
-      EXPECT_LE(apart, r.volumes.target_removed_bound_percent + leaf_percent) << "round " << round << " tick " << tick;
+      EXPECT_LE(apart, r.volumes.target_removed_bound_percent + leaf_percent)
+          << "round " << round << " tick " << tick;
     }
     // all of it
     c.carve([&](Vec3 p) { return c.zones.distance_mm(p) - 0.3; }, 8);
@@ -58,13 +65,16 @@ TEST(LiveTarget, IsTheGradedFigureWithinItsBoundWhateverIsCut) {
     EXPECT_NEAR(graded, 100, 1e-6);
     EXPECT_NEAR(live.percent(c), 100, 1e-3);
   }
-  std::printf("live and graded target_removed_percent: %.2f points apart at most, %.2f of the bound (leaf 0.1 mm)\n", worst, worst_share);
+  std::printf(
+      "live and graded target_removed_percent: %.2f points apart at most, %.2f of the bound (leaf 0.1 mm)\n",
+      worst, worst_share);
 }
 
 TEST(LiveTarget, CountsOfALeafOnTheBorderWhatLiesInTheTarget) {
-  // The target is 11.2 leaves wide; cut along leaves, 1.6 of them go. Whole leaves would make that 2 of 12, 16.7 %. (Edges of the box are
-  // rounded a little by the parts: 0.2 points.)
-  Carved c(testing::scenario_text("[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -1]\nsize_mm = [1.12, 2, 2]\n"),
+  // The target is 11.2 leaves wide; cut along leaves, 1.6 of them go. Whole leaves would make that
+  // 2 of 12, 16.7 %. (Edges of the box are rounded a little by the parts: 0.2 points.)
+  Carved c(testing::scenario_text(
+               "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -1]\nsize_mm = [1.12, 2, 2]\n"),
            testing::dentin_block(3, 4, 0.1));
   c.scenario.steps[0].complete_when = "time_s > 1000";
   Live live(c);

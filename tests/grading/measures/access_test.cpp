@@ -29,7 +29,9 @@ TEST(Access, AWholeRoofTakenOffLeavesNothingOverChamberAndCanals) {
 
 TEST(Access, AStripOfRoofLeftHasItsVolumeAndCoversOneCanalOfTwo) {
   Carved c(opening_pulp(k_chamber_target), chambered_block(0.05));
-  c.carve(box_hole(-1.5, 0.5, -1, 1, -4.5), 0);  // 1 mm of the roof stays: 3 mm of dentin and enamel, less the horn of 0.5 x 0.6 x 0.5 mm
+  c.carve(
+      box_hole(-1.5, 0.5, -1, 1, -4.5),
+      0);  // 1 mm of the roof stays: 3 mm of dentin and enamel, less the horn of 0.5 x 0.6 x 0.5 mm
   const Result r = c.graded();
   ASSERT_TRUE(r.access.overhang);
   EXPECT_NEAR(r.access.overhang->mm3, 1.0 * 2.0 * 3.0 - 0.15, r.access.overhang->bound_mm3);
@@ -42,7 +44,11 @@ TEST(Access, AStripOfRoofLeftHasItsVolumeAndCoversOneCanalOfTwo) {
 TEST(Access, UndercutRoofIsOverhangAlthoughTheChamberBelowItIsEmpty) {
   Carved c(opening_pulp(k_chamber_target), chambered_block(0.05));
   c.carve(box_hole(-1.5, 0.5, -1, 1, -4.5), 0);
-  c.carve([](Vec3 p) { return std::max({std::fabs(p.x) - 1.5, std::fabs(p.y) - 1.0, std::fabs(p.z + 3.75) - 0.75}); }, 1);
+  c.carve(
+      [](Vec3 p) {
+        return std::max({std::fabs(p.x) - 1.5, std::fabs(p.y) - 1.0, std::fabs(p.z + 3.75) - 0.75});
+      },
+      1);
   const AccessMeasures a = c.graded().access;
   EXPECT_NEAR(a.overhang->mm3, 5.85, a.overhang->bound_mm3);
   EXPECT_NEAR(*a.canals_covered_percent, 50, 1e-9);
@@ -51,7 +57,8 @@ TEST(Access, UndercutRoofIsOverhangAlthoughTheChamberBelowItIsEmpty) {
 TEST(Access, OnlyHardTissueBelowTheTargetCountsAsFloorCut) {
   Carved c(opening_pulp(k_chamber_target), chambered_block(0.05));
   c.carve(box_hole(-1.5, 1.5, -1, 1, -4.5), 0);
-  c.carve(box_hole(-1.4, -0.4, -0.5, 0.5, -4.8), 3);  // 0.3 mm of floor under 1 mm2, of which the canal takes 0.4 x 0.6
+  c.carve(box_hole(-1.4, -0.4, -0.5, 0.5, -4.8),
+          3);  // 0.3 mm of floor under 1 mm2, of which the canal takes 0.4 x 0.6
   const Result r = c.graded();
   EXPECT_NEAR(r.access.floor_cut.mm3, 0.3 * (1.0 - 0.24), r.access.floor_cut.bound_mm3);
   EXPECT_EQ(r.access.floor_first.tick, 3);
@@ -80,11 +87,13 @@ TEST(Access, ATargetsTaperIsThatOfItsShapeAndAStraightHoleIsOffByIt) {
 
 // A target that leans: the roof is above along its axis, not along z.
 TEST(Access, LooksAlongTheAxisOfALeaningTarget) {
-  const std::string leaning = "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -2.2]\nsize_mm = [2.4, 1.4, 5.4]\naxis = [0.3, 0, 0.95394]\n";
+  const std::string leaning =
+      "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -2.2]\nsize_mm = [2.4, 1.4, 5.4]\naxis = [0.3, 0, 0.95394]\n";
   Carved c(opening_pulp(leaning), chambered_block(0.05));
   EXPECT_NEAR(c.zones.approach().x, 0.3, 1e-4);
   const AccessMeasures whole = c.graded().access;
-  // nothing removed: overhang is what of the target lies above pulp along the axis, counted here point by point
+  // nothing removed: overhang is what of the target lies above pulp along the axis, counted here
+  // point by point
   double points = 0;
   const Vec3 up = c.zones.approach();
   c.zones.for_each_target_leaf([&](IVec3 leaf) {

@@ -1,4 +1,5 @@
-// What is left over the pulp, against closed forms: cavities of known shape over a pulp that is a ball or a box.
+// What is left over the pulp, against closed forms: cavities of known shape over a pulp that is a
+// ball or a box.
 #include "grading/measures/over_pulp.h"
 
 #include <gtest/gtest.h>
@@ -28,19 +29,25 @@ constexpr double k_leaf_mm = 0.05;
 template <class Shape>
 Tooth with_pulp(const Shape& pulp) {
   return make_tooth(
-      {-3, -3, -6}, {3, 3, 0.5}, k_leaf_mm, [&](Vec3 p) { return p.z > 0       ? k_air
-                                                                 : pulp(p) < 0 ? k_pulp
-                                                                               : k_dentin; },
+      {-3, -3, -6}, {3, 3, 0.5}, k_leaf_mm,
+      [&](Vec3 p) { return p.z > 0       ? k_air
+                           : pulp(p) < 0 ? k_pulp
+                                         : k_dentin; },
       [&](Vec3 p) { return std::max(p.z, -pulp(p)); });
 }
 
 /// A ball of radius 1, its top 2.5 mm below the surface.
 double pulp_ball(Vec3 p) { return length(p - Vec3{0, 0, -3.5}) - 1.0; }
-double box(Vec3 p) { return std::max({std::fabs(p.x) - 0.8, std::fabs(p.y) - 0.8, std::fabs(p.z + 3.0) - 0.8}); }
+double box(Vec3 p) {
+  return std::max({std::fabs(p.x) - 0.8, std::fabs(p.y) - 0.8, std::fabs(p.z + 3.0) - 0.8});
+}
 
-std::string asking(const std::string& target = "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [1, 1, 1]\n") {
+std::string asking(
+    const std::string& target =
+        "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [1, 1, 1]\n") {
   return scenario_text(
-      target, "[[rubric.criteria]]\nid = \"left\"\nmetric = \"dentin_over_pulp_mm\"\nfull = 1.2\nzero = 0.2\npoints = 10\ncritical_below = 0.1\n");
+      target,
+      "[[rubric.criteria]]\nid = \"left\"\nmetric = \"dentin_over_pulp_mm\"\nfull = 1.2\nzero = 0.2\npoints = 10\ncritical_below = 0.1\n");
 }
 
 TEST(OverPulp, AFloorOverABallLeavesWhatLiesBetweenThem) {
@@ -60,7 +67,8 @@ TEST(OverPulp, BesideTheBallTheNearestEdgeOfTheFloorCounts) {
   Carved c(asking(), with_pulp(pulp_ball));
   c.carve(round_hole(1.5, 0, 0.5, -1.5), 0);
   const OverPulpMeasures m = c.graded().over_pulp;
-  EXPECT_NEAR(*m.dentin_mm, std::sqrt(1.0 * 1.0 + 2.0 * 2.0) - 1.0, m.bound_mm);  // from the rim at x = 1, z = -1.5 to the middle
+  EXPECT_NEAR(*m.dentin_mm, std::sqrt(1.0 * 1.0 + 2.0 * 2.0) - 1.0,
+              m.bound_mm);  // from the rim at x = 1, z = -1.5 to the middle
   EXPECT_NEAR(m.thinnest.site_mm.x, 1.0, 2 * k_leaf_mm);
 }
 
@@ -88,7 +96,8 @@ TEST(OverPulp, NeverMoreWhenMoreIsCutAndNothingFromTheTickInWhichThePulpIsOpened
   const Result r = c.graded();
   EXPECT_EQ(*r.over_pulp.dentin_mm, 0.0);
   EXPECT_EQ(r.over_pulp.thinnest.tick, 9);
-  EXPECT_TRUE(testing_basics::tells(r.criteria.back().reason(), Value(r.over_pulp.thinnest.site_mm)));
+  EXPECT_TRUE(
+      testing_basics::tells(r.criteria.back().reason(), Value(r.over_pulp.thinnest.site_mm)));
   EXPECT_TRUE(r.criteria.back().critical_failed);
 }
 
@@ -130,8 +139,9 @@ TEST(OverPulp, ReasonMomentsAndJsonSayWhereAndWhen) {
   EXPECT_EQ(left.first.tick, 7);
   const Why w = why(c.input(), r, c.scenario.rubric, "left");
   ASSERT_FALSE(w.items.empty());
-  EXPECT_TRUE(std::any_of(w.items.begin(), w.items.end(),
-                          [&](const WhyItem& i) { return i.tick == 7 && testing_basics::tells(i.what(), Value(r.over_pulp.pulp_mm)); }));
+  EXPECT_TRUE(std::any_of(w.items.begin(), w.items.end(), [&](const WhyItem& i) {
+    return i.tick == 7 && testing_basics::tells(i.what(), Value(r.over_pulp.pulp_mm));
+  }));
   const auto json = to_json(r);
   EXPECT_EQ(json["pulp"]["dentin_over_pulp_mm"], rounded(*r.over_pulp.dentin_mm));
   EXPECT_EQ(json["pulp"]["bounds"]["dentin_over_pulp_mm"], k_leaf_mm);
@@ -139,7 +149,9 @@ TEST(OverPulp, ReasonMomentsAndJsonSayWhereAndWhen) {
 }
 
 TEST(OverPulp, AResultThatWasNotAskedForItReadsAsItDidBefore) {
-  Carved c(scenario_text("[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [1, 1, 1]\n"), with_pulp(pulp_ball));
+  Carved c(scenario_text(
+               "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [1, 1, 1]\n"),
+           with_pulp(pulp_ball));
   c.carve(round_hole(0, 0, 0.5, -1.0), 3);
   EXPECT_TRUE(c.graded().over_pulp.dentin_mm);
   EXPECT_FALSE(to_json(c.graded()).contains("pulp"));

@@ -7,25 +7,31 @@
 namespace cavum::grading {
 namespace {
 
-/// A made-up recording: every part adds ticks of straight motion with a force that runs to a given value.
+/// A made-up recording: every part adds ticks of straight motion with a force that runs to a given
+/// value.
 class Tape {
  public:
-  explicit Tape(std::uint64_t seed, double noise_n = 0.02, double tremor_mm = 0.01) : random_(seed), noise_n_(noise_n), tremor_mm_(tremor_mm) {}
+  explicit Tape(std::uint64_t seed, double noise_n = 0.02, double tremor_mm = 0.01)
+      : random_(seed), noise_n_(noise_n), tremor_mm_(tremor_mm) {}
 
-  /// `ticks` of motion at `speed` (mm/s); the force goes evenly to `force_n`, pushing along -`into`.
+  /// `ticks` of motion at `speed` (mm/s); the force goes evenly to `force_n`, pushing along
+  /// -`into`.
   Tape& run(int ticks, Vec3 speed, double force_n, bool turning = true, Vec3 into = {0, 0, -1}) {
     const double from = force_n_;
     for (int i = 1; i <= ticks; ++i) {
       tip_ += speed * k_tick_s;
       force_n_ = from + (force_n - from) * i / ticks;
       TickInput in;
-      const Vec3 p = tip_ + Vec3{random_.normal(), random_.normal(), random_.normal()} * tremor_mm_ * 0.1;
-      in.tip_nm = {static_cast<int>(p.x * 1e6), static_cast<int>(p.y * 1e6), static_cast<int>(p.z * 1e6)};
+      const Vec3 p =
+          tip_ + Vec3{random_.normal(), random_.normal(), random_.normal()} * tremor_mm_ * 0.1;
+      in.tip_nm = {static_cast<int>(p.x * 1e6), static_cast<int>(p.y * 1e6),
+                   static_cast<int>(p.z * 1e6)};
       in.flags = k_stylus_fresh | k_pedal_fresh;
       in.pedal_q16 = turning ? 60000 : 0;
       TickRecord r;
       const Vec3 f = into * -(force_n_ > 0 ? force_n_ + noise_n_ * random_.normal() : 0.0);
-      r.rendered_un = {static_cast<int>(f.x * 1e6), static_cast<int>(f.y * 1e6), static_cast<int>(f.z * 1e6)};
+      r.rendered_un = {static_cast<int>(f.x * 1e6), static_cast<int>(f.y * 1e6),
+                       static_cast<int>(f.z * 1e6)};
       r.rpm = turning ? 180000 : 0;
       inputs_.push_back(in);
       records_.push_back(r);
@@ -33,7 +39,9 @@ class Tape {
     return *this;
   }
   [[nodiscard]] std::int64_t now() const { return static_cast<std::int64_t>(inputs_.size()); }
-  [[nodiscard]] std::vector<Breakthrough> events() const { return find_breakthroughs(inputs_, records_); }
+  [[nodiscard]] std::vector<Breakthrough> events() const {
+    return find_breakthroughs(inputs_, records_);
+  }
 
  private:
   Random random_;
@@ -98,10 +106,13 @@ TEST(Breakthrough, IsSilentWhenTheBurSlipsSideways) {
 }
 
 TEST(Breakthrough, IsSilentWhenTheBurMillsAWallAway) {
-  // the same push and fall, once along the handle and once across it: there a wall ends, and the next one is met or not
+  // the same push and fall, once along the handle and once across it: there a wall ends, and the
+  // next one is met or not
   const auto told = [](std::uint64_t seed, Vec3 into) {
     Tape t(seed);
-    t.run(200, into * 2, 0, true, into).run(100, into * 1, 0.9, true, into).run(1500, into * 0.25, 0.9, true, into);
+    t.run(200, into * 2, 0, true, into)
+        .run(100, into * 1, 0.9, true, into)
+        .run(1500, into * 0.25, 0.9, true, into);
     t.run(60, into * 6, 0.02, true, into).run(400, {}, 0.02, true, into);
     return t.events().size();
   };
@@ -145,7 +156,11 @@ TEST(Breakthrough, RemembersWhereTheTipHasBeen) {
   Tape t(5);
   t.run(200, {0, 0, -2}, 0).run(100, {0, 0, -1}, 0.9).run(2000, {0, 0, -0.5}, 0.9);
   t.run(250, {0, 0, 4}, 0).run(250, {0, 0, 4}, 0);
-  t.run(100, {0, 0, -4}, 0.0).run(100, {0, 0, -3}, 0.9).run(800, {0, 0, -0.05}, 0.9).run(80, {0, 0, -5}, 0.02).run(300, {0, 0, 0}, 0.02);
+  t.run(100, {0, 0, -4}, 0.0)
+      .run(100, {0, 0, -3}, 0.9)
+      .run(800, {0, 0, -0.05}, 0.9)
+      .run(80, {0, 0, -5}, 0.02)
+      .run(300, {0, 0, 0}, 0.02);
   EXPECT_TRUE(t.events().empty());
 }
 
@@ -153,7 +168,8 @@ TEST(Breakthrough, IsSilentWhenTheHandPausesAndTheCutCatchesUp) {
   // the tip stays, the surface recedes from it: the force decays with tau
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Tape t = cutting(seed, 1.0);
-    for (const double left : {0.61, 0.37, 0.22, 0.14, 0.08, 0.05, 0.02}) t.run(1000, {0, 0, 0}, left);
+    for (const double left : {0.61, 0.37, 0.22, 0.14, 0.08, 0.05, 0.02})
+      t.run(1000, {0, 0, 0}, left);
     EXPECT_TRUE(t.events().empty()) << "seed " << seed;
   }
 }
@@ -162,7 +178,10 @@ TEST(Breakthrough, IsSilentInChatter) {
   // the mean force vanishes, for it swings to and fro
   Tape t = cutting(4, 0.8);
   for (int i = 0; i < 80; ++i)
-    t.run(1, {0, 0, -0.5}, 0.8).run(4, {0, 0, -0.5}, 0.8).run(1, {0, 0, -0.5}, 0.8, true, {0, 0, 1}).run(4, {0, 0, -0.5}, 0.8, true, {0, 0, 1});
+    t.run(1, {0, 0, -0.5}, 0.8)
+        .run(4, {0, 0, -0.5}, 0.8)
+        .run(1, {0, 0, -0.5}, 0.8, true, {0, 0, 1})
+        .run(4, {0, 0, -0.5}, 0.8, true, {0, 0, 1});
   t.run(500, {0, 0, -0.25}, 0.8);
   EXPECT_TRUE(t.events().empty());
 }
@@ -170,7 +189,10 @@ TEST(Breakthrough, IsSilentInChatter) {
 TEST(Breakthrough, IsSilentWhenABoundBurIsPulledOut) {
   Tape t(6);
   t.run(200, {0, 0, -2}, 0).run(100, {0, 0, -1}, 0.9).run(1500, {0, 0, -0.25}, 0.9);
-  t.run(300, {0, 0, 4}, 0).run(900, {0, 0, 0.3}, 0.9, true, {0, 0, 1}).run(60, {0, 0, 5}, 0.02, true, {0, 0, 1}).run(300, {0, 0, 5}, 0);
+  t.run(300, {0, 0, 4}, 0)
+      .run(900, {0, 0, 0.3}, 0.9, true, {0, 0, 1})
+      .run(60, {0, 0, 5}, 0.02, true, {0, 0, 1})
+      .run(300, {0, 0, 5}, 0);
   EXPECT_TRUE(t.events().empty());
 }
 
@@ -185,7 +207,11 @@ TEST(Breakthrough, IsSilentInALesionOfAThirdOfTheResistance) {
 TEST(Breakthrough, IsLessSureInANoisierForce) {
   const auto probability = [](double noise_n) {
     Tape t(8, noise_n);
-    t.run(200, {0, 0, -2}, 0).run(100, {0, 0, -1}, 0.12).run(1500, {0, 0, -0.25}, 0.12).run(80, {0, 0, -4}, 0.001).run(400, {0, 0, 0}, 0.001);
+    t.run(200, {0, 0, -2}, 0)
+        .run(100, {0, 0, -1}, 0.12)
+        .run(1500, {0, 0, -0.25}, 0.12)
+        .run(80, {0, 0, -4}, 0.001)
+        .run(400, {0, 0, 0}, 0.001);
     const auto events = t.events();
     return events.empty() ? 0.0 : events[0].probability;
   };
@@ -194,7 +220,10 @@ TEST(Breakthrough, IsLessSureInANoisierForce) {
 
 TEST(Breakthrough, SeesTheSecondBreakthroughToo) {
   Tape t = cutting(9);
-  t.run(100, {0, 0, -4}, 0.03).run(600, {0, 0, -1}, 0.0).run(100, {0, 0, -1}, 0.9).run(1500, {0, 0, -0.25}, 0.9);
+  t.run(100, {0, 0, -4}, 0.03)
+      .run(600, {0, 0, -1}, 0.0)
+      .run(100, {0, 0, -1}, 0.9)
+      .run(1500, {0, 0, -0.25}, 0.9);
   const std::int64_t second = t.now();
   t.run(100, {0, 0, -4}, 0.03).run(300, {0, 0, 0}, 0.0);
   const auto events = t.events();

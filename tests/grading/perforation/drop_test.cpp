@@ -27,7 +27,8 @@ std::array<bool, 256> pulp_only() {
 
 /// A flat bur of 1 mm goes down into a block at a constant speed, and rests at `deepest_mm`.
 struct Descent {
-  Tooth tooth = make_block({4, 4, 3}, {{"dentin", k_roof_mm}, {"pulp", 0.8}, {"dentin", 1.2}}, 0.05);
+  Tooth tooth =
+      make_block({4, 4, 3}, {{"dentin", k_roof_mm}, {"pulp", 0.8}, {"dentin", 1.2}}, 0.05);
   std::vector<TickInput> inputs;
   std::vector<TickRecord> records;
   std::vector<std::int64_t> opened;
@@ -48,7 +49,8 @@ struct Descent {
     for (int i = 0; i < 1500; ++i) go(start);
     const auto ticks = static_cast<int>((deepest_mm + 0.05) / speed_mm_s * 1000.0);
     for (int i = 1; i <= ticks; ++i) go(start - Vec3{0, 0, i * speed_mm_s * 1e-3});
-    for (int i = 0; i < static_cast<int>(rest_s * 1000.0); ++i) go(start - Vec3{0, 0, ticks * speed_mm_s * 1e-3});
+    for (int i = 0; i < static_cast<int>(rest_s * 1000.0); ++i)
+      go(start - Vec3{0, 0, ticks * speed_mm_s * 1e-3});
     const Tooth solid = filled_tooth(tooth, pulp_only());
     Rig again(solid, tray, hard_model(k_k, k_c, k_tau_s), start);
     missing = missing_force(again.model, again.state, inputs, records);
@@ -68,7 +70,8 @@ TEST(ForceDrop, ThroughAWideRoofAllOfTheForceGoesAndTheFilledToothKeepsMaxwellsF
   EXPECT_NEAR(d.missing.felt_n.back(), 0.0, 0.02 * expected);
   EXPECT_GT(drop.share, 0.7);
   EXPECT_LE(drop.missing_n, 1.05 * expected);
-  EXPECT_GT(drop.felt_tick, d.opened.front() - 500) << "tissue is felt a leaf and a half ahead, 0.4 s at this speed";
+  EXPECT_GT(drop.felt_tick, d.opened.front() - 500)
+      << "tissue is felt a leaf and a half ahead, 0.4 s at this speed";
   EXPECT_LT(drop.felt_tick, d.opened.front() + 1500);
 }
 
@@ -76,13 +79,15 @@ TEST(ForceDrop, NothingIsMissingToTheLastBitWhereNothingWasOpened) {
   const Descent d(0.2, k_roof_mm - 0.45, 1.0);
   ASSERT_TRUE(d.opened.empty());
   ASSERT_GT(*std::max_element(d.missing.felt_n.begin(), d.missing.felt_n.end()), 0.1);
-  for (std::size_t i = 0; i < d.missing.felt_n.size(); ++i) ASSERT_EQ(d.missing.felt_n[i], d.missing.filled_n[i]) << i;
+  for (std::size_t i = 0; i < d.missing.felt_n.size(); ++i)
+    ASSERT_EQ(d.missing.felt_n[i], d.missing.filled_n[i]) << i;
   EXPECT_EQ(find_drop(d.missing, d.opened).from_tick, -1);
 }
 
 TEST(ForceDrop, BeforeTheCavityIsNearNothingIsMissing) {
   const Descent d(0.2, k_roof_mm + 0.7, 0.0);
-  const auto near = static_cast<std::size_t>((1.5 + (0.05 + k_roof_mm - 0.5) / 0.2) * 100);  // the tip half a millimetre before the roof
+  const auto near = static_cast<std::size_t>((1.5 + (0.05 + k_roof_mm - 0.5) / 0.2) *
+                                             100);  // the tip half a millimetre before the roof
   for (std::size_t i = 0; i < near; ++i) ASSERT_EQ(d.missing.felt_n[i], d.missing.filled_n[i]) << i;
 }
 
@@ -90,20 +95,25 @@ TEST(ForceDrop, BeforeTheCavityIsNearNothingIsMissing) {
 MissingForce story(std::initializer_list<std::pair<double, std::pair<double, double>>> parts) {
   MissingForce out;
   for (const auto& [seconds, force] : parts)
-    for (int i = 0; i < static_cast<int>(seconds * 100.0 + 0.5); ++i) out.filled_n.push_back(force.first), out.felt_n.push_back(force.second);
+    for (int i = 0; i < static_cast<int>(seconds * 100.0 + 0.5); ++i)
+      out.filled_n.push_back(force.first), out.felt_n.push_back(force.second);
   return out;
 }
 
 TEST(ForceDrop, WhoComesBackToAnOpenCavityHasLostNothing) {
   const std::vector<std::int64_t> opened{3000};
-  EXPECT_FALSE(find_drop(story({{2, {0.6, 0.6}}, {1, {0.0, 0.0}}, {2, {0.6, 0.02}}}), opened).felt());
-  EXPECT_TRUE(find_drop(story({{3, {0.6, 0.6}}, {2, {0.6, 0.02}}}), opened).felt()) << "but whoever presses on has";
+  EXPECT_FALSE(
+      find_drop(story({{2, {0.6, 0.6}}, {1, {0.0, 0.0}}, {2, {0.6, 0.02}}}), opened).felt());
+  EXPECT_TRUE(find_drop(story({{3, {0.6, 0.6}}, {2, {0.6, 0.02}}}), opened).felt())
+      << "but whoever presses on has";
 }
 
 TEST(ForceDrop, WhatGoesOverTwentySecondsIsNotFelt) {
   MissingForce slow;
   std::vector<std::int64_t> opened;
-  for (int i = 0; i < 2000; ++i) slow.filled_n.push_back(0.6), slow.felt_n.push_back(0.6 * (1.0 - i / 2000.0)), opened.push_back(i * 10);
+  for (int i = 0; i < 2000; ++i)
+    slow.filled_n.push_back(0.6), slow.felt_n.push_back(0.6 * (1.0 - i / 2000.0)),
+        opened.push_back(i * 10);
   const ForceDrop drop = find_drop(slow, opened);
   EXPECT_FALSE(drop.felt());
   EXPECT_NEAR(drop.missing_n, 0.6 * 150 / 2000.0, 1e-9) << "1.5 s of it";
@@ -121,7 +131,8 @@ TEST(ForceDrop, SeverityIsWhatWasFeltAndHowLongTheCavityWasOpenedFurther) {
   EXPECT_NEAR(on.cut_on_s, 0.9, 1e-9);
   EXPECT_EQ(on.felt_tick, 3009);
   EXPECT_NEAR(on.missing_n, 0.5, 1e-9);
-  EXPECT_EQ(find_drop(story({{3, {0.6, 0.6}}, {2, {0.6, 0.5}}}), {opened.data(), 1}).severity(), DropSeverity::faint);
+  EXPECT_EQ(find_drop(story({{3, {0.6, 0.6}}, {2, {0.6, 0.5}}}), {opened.data(), 1}).severity(),
+            DropSeverity::faint);
 }
 
 TEST(ForceDrop, FarFromAnOpeningALossIsNoDrop) {

@@ -7,8 +7,10 @@
 namespace cavum::grading {
 namespace {
 
-/// Frames of a tip that moves along -z at `speed(t)` (mm/s, positive = deeper) against a spring of k N/mm whose foot recedes at X / tau.
-std::vector<DrillFrame> against_a_spring(double k, double tau_s, double seconds, double (*speed)(double)) {
+/// Frames of a tip that moves along -z at `speed(t)` (mm/s, positive = deeper) against a spring of
+/// k N/mm whose foot recedes at X / tau.
+std::vector<DrillFrame> against_a_spring(double k, double tau_s, double seconds,
+                                         double (*speed)(double)) {
   std::vector<DrillFrame> frames;
   double depth = 0, x = 0;
   for (double t = 0; t < seconds; t += k_frame_s) {
@@ -28,14 +30,16 @@ double least_share(const std::vector<DrillFrame>& frames, ExpectedForce& observe
   double least = 1;
   for (std::int64_t i = 0; i < static_cast<std::int64_t>(frames.size()); ++i) {
     observer.take(frames, i);
-    if (observer.ready() && observer.expected_n() > 0.05) least = std::min(least, observer.force_n() / observer.expected_n());
+    if (observer.ready() && observer.expected_n() > 0.05)
+      least = std::min(least, observer.force_n() / observer.expected_n());
   }
   return least;
 }
 
 double learned(double k) {
   ExpectedForce observer({});
-  (void)least_share(against_a_spring(k, 2.02, 8, [](double t) { return 0.4 + 1.2 * std::sin(6 * t); }), observer);
+  (void)least_share(
+      against_a_spring(k, 2.02, 8, [](double t) { return 0.4 + 1.2 * std::sin(6 * t); }), observer);
   return observer.stiffness_n_per_mm();
 }
 
@@ -66,8 +70,10 @@ TEST(ExpectedForce, GrowsWithTheWayOfATipThatPressesOnInAFall) {
     f.force_n = {};
     frames.push_back(f);
   }
-  for (int i = 0; i < 3; ++i) frames.push_back(frames.back());  // until the means over three frames have arrived
-  for (std::int64_t i = first; i < static_cast<std::int64_t>(frames.size()); ++i) observer.take(frames, i);
+  for (int i = 0; i < 3; ++i)
+    frames.push_back(frames.back());  // until the means over three frames have arrived
+  for (std::int64_t i = first; i < static_cast<std::int64_t>(frames.size()); ++i)
+    observer.take(frames, i);
   EXPECT_LE(observer.expected_n(), level + 1e-12) << "the level bounds what was only guessed";
   // F = k X of a surface that recedes at X / tau
   const double decay = std::exp(-(count + 3) * k_frame_s / tau_s);

@@ -19,18 +19,22 @@ std::vector<TickInput> pressed_down(const Tooth& block, double deep_mm) {
   constexpr int k_ticks = 600;
   const Octree& tree = block.octree;
   const IVec3 size = tree.size();
-  const Vec3 low = tree.origin_mm(), top = low + Vec3{size.x * 0.5, size.y * 0.5, static_cast<double>(size.z)} * tree.leaf_mm();
+  const Vec3 low = tree.origin_mm(),
+             top = low +
+                   Vec3{size.x * 0.5, size.y * 0.5, static_cast<double>(size.z)} * tree.leaf_mm();
   std::vector<TickInput> inputs;
   TickInput before;
   for (int i = 0; i < k_ticks; ++i) {
-    before = make_tick_input({top + Vec3{0, 0, 0.1 - (deep_mm + 0.1) * i / k_ticks}, {}}, 1.0, k_stylus_fresh | k_pedal_fresh, 0, before);
+    before = make_tick_input({top + Vec3{0, 0, 0.1 - (deep_mm + 0.1) * i / k_ticks}, {}}, 1.0,
+                             k_stylus_fresh | k_pedal_fresh, 0, before);
     inputs.push_back(before);
   }
   return inputs;
 }
 
 TEST(KnownTooth, AnswersAsIfItKeptNothing) {
-  const auto exam = scenarios::prepare_exam(std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml", {});
+  const auto exam = scenarios::prepare_exam(
+      std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml", {});
   const Tooth& block = exam->tooth;
   std::array<bool, 256> pulp{}, none{};
   pulp[block.tissue_id("pulp")] = true;

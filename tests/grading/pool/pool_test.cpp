@@ -1,4 +1,5 @@
-// Lines of work are the same bytes whoever made them; what is damaged, missing or changed is made again, and nothing else.
+// Lines of work are the same bytes whoever made them; what is damaged, missing or changed is made
+// again, and nothing else.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -31,12 +32,16 @@ class Pool : public testing::Test {
     std::filesystem::create_directories(work_.folder);
     for (const char* name : {"a.cavum", "b.cavum", "c.cavum", "d.cavum"}) {
       const bool odd = name[0] == 'b' || name[0] == 'd';
-      std::filesystem::copy_file(k_sessions + (odd ? "block_perforator.cavum" : "block_expert.cavum"), work_.folder + "/" + name);
+      std::filesystem::copy_file(
+          k_sessions + (odd ? "block_perforator.cavum" : "block_expert.cavum"),
+          work_.folder + "/" + name);
       work_.sessions.emplace_back(name);
     }
   }
   [[nodiscard]] std::string file(const std::string& name) const { return folder_.file(name); }
-  std::size_t shard(std::size_t k, std::size_t of) { return make_shard(work_, k, of, file(std::to_string(k) + ".part"), {.threads = 1}); }
+  std::size_t shard(std::size_t k, std::size_t of) {
+    return make_shard(work_, k, of, file(std::to_string(k) + ".part"), {.threads = 1});
+  }
   static void alter(const std::string& path, std::size_t from_end) {
     Bytes bytes = read_file(path);
     bytes[bytes.size() - from_end] ^= 1;
@@ -50,7 +55,8 @@ TEST_F(Pool, OneThreadFourThreadsAndThreeShardsGiveTheSameBytes) {
   work_.what = What::verify;
   const Made one = by_threads(work_, {.threads = 1}), four = by_threads(work_, {.threads = 4});
   ASSERT_EQ(one.lines.size(), 4u);
-  for (const auto& line : one.lines) EXPECT_TRUE(json::parse(line).at("verified").get<bool>()) << line;
+  for (const auto& line : one.lines)
+    EXPECT_TRUE(json::parse(line).at("verified").get<bool>()) << line;
   EXPECT_EQ(json::parse(one.lines[1]).at("session"), "b.cavum");
   EXPECT_EQ(one.lines, four.lines);
   EXPECT_EQ(shard(1, 3) + shard(2, 3) + shard(3, 3), 4u);
@@ -66,10 +72,13 @@ TEST_F(Pool, SaysWhatIsMissingAndMakesADamagedRowAgain) {
   const Parts damaged = read_parts(work_, {file("1.part"), file("2.part")});
   EXPECT_EQ(damaged.missing(), (std::vector<std::size_t>{3}));
   ASSERT_EQ(damaged.remarks.size(), 1u);
-  EXPECT_TRUE(testing_basics::tells(damaged.remarks[0], 1) && testing_basics::tells(damaged.remarks[0], 2)) << damaged.remarks[0];
+  EXPECT_TRUE(testing_basics::tells(damaged.remarks[0], 1) &&
+              testing_basics::tells(damaged.remarks[0], 2))
+      << damaged.remarks[0];
   EXPECT_EQ(shard(2, 2), 1u);
   EXPECT_TRUE(read_parts(work_, {file("1.part"), file("2.part")}).missing().empty());
-  write_file(file("2.part"), std::span(whole).first(whole.size() - 300));  // cut off in the last row
+  write_file(file("2.part"),
+             std::span(whole).first(whole.size() - 300));  // cut off in the last row
   EXPECT_EQ(shard(2, 2), 1u);
   EXPECT_TRUE(read_parts(work_, {file("1.part"), file("2.part")}).missing().empty());
 }
@@ -106,7 +115,8 @@ TEST_F(Pool, ARunThatWasStoppedGoesOnWhereItStood) {
 TEST_F(Pool, ASessionThatChangedMeanwhileIsMadeAgain) {
   const pool::Run run{.parts = file("work")};
   const Made before = by_threads(work_, run);
-  std::filesystem::copy_file(work_.folder + "/b.cavum", work_.folder + "/a.cavum", std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::copy_file(work_.folder + "/b.cavum", work_.folder + "/a.cavum",
+                             std::filesystem::copy_options::overwrite_existing);
   const Made after = by_threads(work_, run);
   EXPECT_EQ(after.found, 3u);
   EXPECT_NE(after.lines[0], before.lines[0]);
@@ -121,7 +131,8 @@ TEST_F(Pool, AFileThatIsGoneIsALineInAPartToo) {
   leave_out_changed(work_, parts);
   ASSERT_TRUE(parts.missing().empty()) << "it is not made again for ever";
   EXPECT_EQ(*parts.lines[3], by_threads(work_).lines[3]);
-  EXPECT_EQ(parts.lines[3]->find(work_.folder), std::string::npos) << "no place stands in it: " << *parts.lines[3];
+  EXPECT_EQ(parts.lines[3]->find(work_.folder), std::string::npos)
+      << "no place stands in it: " << *parts.lines[3];
   std::filesystem::copy_file(work_.folder + "/b.cavum", work_.folder + "/d.cavum");
   leave_out_changed(work_, parts);
   EXPECT_EQ(parts.missing(), (std::vector<std::size_t>{3})) << "it is there again";
@@ -133,7 +144,8 @@ TEST_F(Pool, AFileThatIsNoSessionIsALineThatSaysSo) {
   const Made made = by_threads(work_);
   EXPECT_TRUE(made.missing.empty());
   EXPECT_TRUE(json::parse(made.lines[0]).contains("result"));
-  for (const std::size_t i : {2u, 3u}) EXPECT_FALSE(json::parse(made.lines[i]).at("error").get<std::string>().empty());
+  for (const std::size_t i : {2u, 3u})
+    EXPECT_FALSE(json::parse(made.lines[i]).at("error").get<std::string>().empty());
 }
 
 TEST_F(Pool, ARegradeIsThatOfOneSessionAlone) {
@@ -142,7 +154,8 @@ TEST_F(Pool, ARegradeIsThatOfOneSessionAlone) {
   const Made made = by_threads(work_);
   const auto graded = grading::load_for_grading(k_sessions + "block_perforator.cavum");
   grading::use_rubric(*graded, scenarios::parse_rubric(k_other_rubric, "rubric"));
-  EXPECT_EQ(json::parse(made.lines[1]).at("result"), json::parse(grading::to_json(grading::grade(graded->input(), graded->rubric)).dump()));
+  EXPECT_EQ(json::parse(made.lines[1]).at("result"),
+            json::parse(grading::to_json(grading::grade(graded->input(), graded->rubric)).dump()));
 }
 
 TEST_F(Pool, AListOfWorkIsReadAsItWasWritten) {

@@ -29,7 +29,8 @@ class Attack : public testing::Test {
   static void SetUpTestSuite() {
     shared_ = new School();
     shared_ticket_ = new std::string(shared_->ticket("4711"));
-    shared_session_ = new std::string(std::filesystem::path(shared_->sit(*shared_ticket_)).filename().string());
+    shared_session_ =
+        new std::string(std::filesystem::path(shared_->sit(*shared_ticket_)).filename().string());
   }
   static void TearDownTestSuite() {
     delete shared_;
@@ -40,14 +41,16 @@ class Attack : public testing::Test {
     Ledger ledger = school_.ledger();
     return file_session(ledger, path);
   }
-  void expect_refused(const std::string& path, Kind kind, const std::vector<std::string>& words = {""}) {
+  void expect_refused(const std::string& path, Kind kind,
+                      const std::vector<std::string>& words = {""}) {
     const Filing f = file(path);
     EXPECT_FALSE(f.seq);
     expect_finding(f.findings, kind, words);
     EXPECT_TRUE(read_registry(read_ledger(school_.places())).sessions.empty());
     EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
   }
-  /// Changes the ledger's file as someone with an SQLite shell would: triggers do not stop him, he puts them back afterwards.
+  /// Changes the ledger's file as someone with an SQLite shell would: triggers do not stop him, he
+  /// puts them back afterwards.
   void edit_ledger(const std::string& sql) {
     std::string drop, make;
     {
@@ -69,7 +72,8 @@ class Attack : public testing::Test {
     Kind kind;
     std::string told = "";
   };
-  /// Each edit of the ledger as it is now, and its finding; `past_triggers`: they are put back afterwards.
+  /// Each edit of the ledger as it is now, and its finding; `past_triggers`: they are put back
+  /// afterwards.
   void expect_found(const std::vector<Edit>& edits, bool past_triggers) {
     const Bytes sound = read_file(school_.places().database());
     for (const auto& [sql, kind, told] : edits) {
@@ -105,20 +109,23 @@ TEST_F(Attack, NoneIsFiledAndHolds) {
 TEST_F(Attack, EveryEditOfARecording) {
   auto inputs = SessionReader(session_).motion(3).inputs;
   inputs[10].tip_nm[2] += 20'000;
-  for (const auto& [sql, told] : std::vector<std::pair<std::string, std::string>>{
-           {"UPDATE chunk SET inputs = " + blob(pack_inputs(inputs)) + " WHERE seq = 3", " 3"},
-           {"UPDATE event SET detail_json = '{\"step\":9}' WHERE seq = 0", ""},
-           {"UPDATE chunk SET utc_ns = utc_ns - 60000000000 WHERE seq = 2", " 2"},
-           {"UPDATE artifact SET bytes = CAST(replace(CAST(bytes AS TEXT), 'pass_percent', 'pass_percent ') AS BLOB) WHERE name = 'scenario.toml'",
-            "scenario.toml"},
-           {"UPDATE result SET json = replace(json, '\"verdict\":\"pass\"', '\"verdict\":\"fail\"')", ""},
-           {"UPDATE artifact SET bytes = zeroblob(100) WHERE name = 'final_tooth.cvt'", ""},
-           {"DELETE FROM chunk WHERE seq = 4", ""},
-           {"UPDATE chunk SET seq = 1000 WHERE seq = 4; UPDATE chunk SET seq = 4 WHERE seq = 5; UPDATE chunk SET seq = 5 WHERE seq = 1000", ""},
-           {"CREATE TEMP TABLE again AS SELECT * FROM chunk WHERE seq = 4; UPDATE again SET seq = (SELECT max(seq) + 1 FROM chunk); "
-            "INSERT INTO chunk SELECT * FROM again",
-            ""},
-           {"DELETE FROM chunk WHERE seq > 5", ""}}) {
+  for (
+      const auto& [sql, told] : std::vector<std::pair<std::string, std::string>>{
+          {"UPDATE chunk SET inputs = " + blob(pack_inputs(inputs)) + " WHERE seq = 3", " 3"},
+          {"UPDATE event SET detail_json = '{\"step\":9}' WHERE seq = 0", ""},
+          {"UPDATE chunk SET utc_ns = utc_ns - 60000000000 WHERE seq = 2", " 2"},
+          {"UPDATE artifact SET bytes = CAST(replace(CAST(bytes AS TEXT), 'pass_percent', 'pass_percent ') AS BLOB) WHERE name = 'scenario.toml'",
+           "scenario.toml"},
+          {"UPDATE result SET json = replace(json, '\"verdict\":\"pass\"', '\"verdict\":\"fail\"')",
+           ""},
+          {"UPDATE artifact SET bytes = zeroblob(100) WHERE name = 'final_tooth.cvt'", ""},
+          {"DELETE FROM chunk WHERE seq = 4", ""},
+          {"UPDATE chunk SET seq = 1000 WHERE seq = 4; UPDATE chunk SET seq = 4 WHERE seq = 5; UPDATE chunk SET seq = 5 WHERE seq = 1000",
+           ""},
+          {"CREATE TEMP TABLE again AS SELECT * FROM chunk WHERE seq = 4; UPDATE again SET seq = (SELECT max(seq) + 1 FROM chunk); "
+           "INSERT INTO chunk SELECT * FROM again",
+           ""},
+          {"DELETE FROM chunk WHERE seq > 5", ""}}) {
     SCOPED_TRACE(sql.substr(0, 80));
     const std::string edited = school_.file("edited.cavum");
     std::filesystem::copy_file(session_, edited, std::filesystem::copy_options::overwrite_existing);
@@ -147,15 +154,19 @@ TEST_F(Attack, AnOldTicket) {
   expect_refused(school_.sit(old), Kind::ticket_time);
 }
 TEST_F(Attack, AnotherCandidatesSession) {
-  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.candidate = "C-AAAA-BBBB-CCCC"; }), Kind::ticket_candidate,
-                 {"C-AAAA-BBBB-CCCC"});
+  expect_refused(school_.sit(ticket_, "expert",
+                             [](scenarios::ExamOptions& o) { o.candidate = "C-AAAA-BBBB-CCCC"; }),
+                 Kind::ticket_candidate, {"C-AAAA-BBBB-CCCC"});
 }
 TEST_F(Attack, MoreTimeThanWasGranted) {
-  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.grant.extra_time_percent = 50; }), Kind::ticket_accommodations);
+  expect_refused(school_.sit(ticket_, "expert",
+                             [](scenarios::ExamOptions& o) { o.grant.extra_time_percent = 50; }),
+                 Kind::ticket_accommodations);
 }
 TEST_F(Attack, AnotherForceModel) {
-  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.force_model = "paper"; }), Kind::ticket_artifact,
-                 {"force_model.toml"});
+  expect_refused(
+      school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.force_model = "paper"; }),
+      Kind::ticket_artifact, {"force_model.toml"});
 }
 TEST_F(Attack, ATicketMadeByAnotherKey) {
   const Ticket t = parse_ticket(ticket_, "", "ticket");
@@ -176,15 +187,19 @@ TEST_F(Attack, ATicketThatWasNeverIssued) {
   expect_refused(school_.sit(sign_ticket(own, School::key()).text), Kind::ticket_unknown);
 }
 TEST_F(Attack, ASimulatedOperatorInTheCandidatesPlace) {
-  const std::string simulated = school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.notes.emplace_back("operator", "expert"); });
+  const std::string simulated = school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) {
+    o.notes.emplace_back("operator", "expert");
+  });
   expect_refused(simulated, Kind::no_hand, {"'expert'"});
   Ledger ledger = school_.ledger();
   ASSERT_TRUE(file_session(ledger, simulated, {.simulated = true}).seq);
-  EXPECT_EQ(read_registry(ledger.content()).sessions.at(0).simulated, "expert") << "it stays marked";
+  EXPECT_EQ(read_registry(ledger.content()).sessions.at(0).simulated, "expert")
+      << "it stays marked";
 }
 TEST_F(Attack, APseudonymWithoutItsTicket) {
-  const std::string session =
-      school_.sit("", "expert", [&](scenarios::ExamOptions& o) { o.candidate = parse_ticket(ticket_, "", "ticket").candidate; });
+  const std::string session = school_.sit("", "expert", [&](scenarios::ExamOptions& o) {
+    o.candidate = parse_ticket(ticket_, "", "ticket").candidate;
+  });
   Ledger ledger = school_.ledger();
   const Filing f = file_session(ledger, session, {.without_ticket = true});
   EXPECT_FALSE(f.seq);
@@ -192,14 +207,17 @@ TEST_F(Attack, APseudonymWithoutItsTicket) {
 }
 TEST_F(Attack, NamesExchangedAmongTheIdentities) {
   school_.ticket("4712");
-  test::tamper(school_.places().identities(),
-               "UPDATE identity SET id = 'x' WHERE id = '4711'; UPDATE identity SET id = '4711' WHERE id = '4712'; UPDATE identity SET id = '4712' "
-               "WHERE id = 'x'");
+  test::tamper(
+      school_.places().identities(),
+      "UPDATE identity SET id = 'x' WHERE id = '4711'; UPDATE identity SET id = '4711' WHERE id = '4712'; UPDATE identity SET id = '4712' "
+      "WHERE id = 'x'");
   EXPECT_EQ(Identities(school_.places().identities()).check(School::key()).size(), 2u);
 }
 TEST_F(Attack, AResultThatIsNone) {
   // a station with a key of its own may seal anything as its result
-  for (const char* result : {R"("pass")", R"({"verdict":"pass"})", R"({"verdict":"pass","score":{"points":"all","max":1},"criteria":[]})"}) {
+  for (const char* result :
+       {R"("pass")", R"({"verdict":"pass"})",
+        R"({"verdict":"pass","score":{"points":"all","max":1},"criteria":[]})"}) {
     const auto setup = SessionReader(session_).setup();
     const std::string path = school_.file("sealed.cavum");
     std::filesystem::remove(path);
@@ -214,29 +232,44 @@ TEST_F(Attack, EveryEditOfAFiledEntry) {
   ASSERT_TRUE(file(session_).seq);
   std::string text = read_ledger(school_.places()).entries.at(4).text;
   text.replace(text.find("\"findings\":[]"), 13, "\"findings\":[7]");
-  const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
-  expect_found({{"UPDATE opening SET text = replace(text, '\"verdict\":\"pass\"', '\"verdict\":\"fail\"')", Kind::part_changed, " 4"},
-                {"UPDATE entry SET text = replace(text, '\"findings\":[]', '\"findings\":[1]') WHERE seq = 4", Kind::entry_changed, " 4"},
-                {"DELETE FROM opening", Kind::part_missing, " 4"},
-                {"UPDATE entry SET text = CAST(" + blob(bytes) + " AS TEXT), leaf_sha256 = " + blob(leaf_hash(bytes)) + " WHERE seq = 4",
-                 Kind::tree_differs, " 5"},
-                {"DELETE FROM entry WHERE seq = 4", Kind::entry_missing},
-                {"DELETE FROM entry WHERE seq = 4; DELETE FROM note WHERE size = 5", Kind::older_copy, " 5"}},
-               true);
+  const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(text.data()),
+                                            text.size());
+  expect_found(
+      {{"UPDATE opening SET text = replace(text, '\"verdict\":\"pass\"', '\"verdict\":\"fail\"')",
+        Kind::part_changed, " 4"},
+       {"UPDATE entry SET text = replace(text, '\"findings\":[]', '\"findings\":[1]') WHERE seq = 4",
+        Kind::entry_changed, " 4"},
+       {"DELETE FROM opening", Kind::part_missing, " 4"},
+       {"UPDATE entry SET text = CAST(" + blob(bytes) +
+            " AS TEXT), leaf_sha256 = " + blob(leaf_hash(bytes)) + " WHERE seq = 4",
+        Kind::tree_differs, " 5"},
+       {"DELETE FROM entry WHERE seq = 4", Kind::entry_missing},
+       {"DELETE FROM entry WHERE seq = 4; DELETE FROM note WHERE size = 5", Kind::older_copy,
+        " 5"}},
+      true);
 }
 TEST_F(Attack, EveryEditOfTheLedgersTables) {
-  expect_found({{"INSERT INTO opening VALUES ('" + std::string(64, '0') + "', '{\"salt\":\"\",\"value\":1}')", Kind::foreign, "000"},
-                {"INSERT INTO entry VALUES (4, '{\"body\":{\"results\":[2]},\"kind\":\"release\",\"seq\":4,\"utc_ns\":1}', zeroblob(32))",
-                 Kind::entry_changed, " 4"}},
-               true);
-  const std::string changed = "DROP TRIGGER entry_stays; UPDATE entry SET seq = seq; ",
-                    own = "CREATE TABLE notes (x); INSERT INTO notes VALUES (1); CREATE INDEX by_text ON entry (text)";
-  expect_found({{changed, Kind::schema_differs, "entry_stays"},
-                {changed + "CREATE TRIGGER entry_stays BEFORE UPDATE ON entry BEGIN SELECT 1; END", Kind::schema_differs, "entry_stays"},
-                {changed + "DROP VIEW session; CREATE VIEW session AS SELECT seq, 'pass' AS verdict FROM entry", Kind::schema_differs, "session"},
-                {own, Kind::schema_differs, "notes"},
-                {own, Kind::schema_differs, "by_text"}},
-               false);
+  expect_found(
+      {{"INSERT INTO opening VALUES ('" + std::string(64, '0') +
+            "', '{\"salt\":\"\",\"value\":1}')",
+        Kind::foreign, "000"},
+       {"INSERT INTO entry VALUES (4, '{\"body\":{\"results\":[2]},\"kind\":\"release\",\"seq\":4,\"utc_ns\":1}', zeroblob(32))",
+        Kind::entry_changed, " 4"}},
+      true);
+  const std::string
+      changed = "DROP TRIGGER entry_stays; UPDATE entry SET seq = seq; ",
+      own =
+          "CREATE TABLE notes (x); INSERT INTO notes VALUES (1); CREATE INDEX by_text ON entry (text)";
+  expect_found(
+      {{changed, Kind::schema_differs, "entry_stays"},
+       {changed + "CREATE TRIGGER entry_stays BEFORE UPDATE ON entry BEGIN SELECT 1; END",
+        Kind::schema_differs, "entry_stays"},
+       {changed +
+            "DROP VIEW session; CREATE VIEW session AS SELECT seq, 'pass' AS verdict FROM entry",
+        Kind::schema_differs, "session"},
+       {own, Kind::schema_differs, "notes"},
+       {own, Kind::schema_differs, "by_text"}},
+      false);
 }
 TEST_F(Attack, ALedgerPutBackToAnOlderCopy) {
   const Bytes old = read_file(school_.places().database());
@@ -254,7 +287,8 @@ TEST_F(Attack, ALedgerPutBackAndGrownAgain) {
   write_file(school_.places().database(), old);
   write_file(witness, old_witness);  // he thought of that, too
   school_.ticket("4713");
-  EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty()) << "nothing on this computer remembers";
+  EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty())
+      << "nothing on this computer remembers";
   const LedgerContent now = read_ledger(school_.places());
   expect_kinds(check_receipt(receipt, now.public_key, &now), {Kind::rewritten});
   write_file(witness, full_witness);
@@ -263,7 +297,8 @@ TEST_F(Attack, ALedgerPutBackAndGrownAgain) {
 TEST_F(Attack, AFiledSessionChangedInItsFolder) {
   ASSERT_TRUE(file(session_).seq);
   const auto filed = read_registry(read_ledger(school_.places())).sessions.at(0);
-  std::filesystem::copy_file(school_.sit(ticket_, "novice"), school_.places().session(filed.file_sha256),
+  std::filesystem::copy_file(school_.sit(ticket_, "novice"),
+                             school_.places().session(filed.file_sha256),
                              std::filesystem::copy_options::overwrite_existing);
   expect_finding(check_ledger(school_.places(), false).findings, Kind::file_changed, {"4"});
   std::filesystem::remove(school_.places().session(filed.file_sha256));
@@ -303,19 +338,23 @@ TEST_F(Attack, ExportedResultsThatWereImproved) {
   text.replace(text.find("\"pass\""), 6, "\"fail\"");
   expect_kinds(check_results(text, key, &ledger.content()), {Kind::signature_invalid});
 }
-/// A copy of a closed session as somebody makes it who wants a better end: without the end, and not closed.
+/// A copy of a closed session as somebody makes it who wants a better end: without the end, and not
+/// closed.
 std::string cut_back(const School& school, const std::string& session, const std::string& name) {
   const std::string cut = school.file(name);
   std::filesystem::copy_file(session, cut);
-  test::tamper(cut,
-               "DELETE FROM seal; DELETE FROM result; DELETE FROM event WHERE chunk > 3; DELETE FROM chunk WHERE seq > 3; DELETE FROM artifact WHERE "
-               "name = 'final_tooth.cvt'");
+  test::tamper(
+      cut,
+      "DELETE FROM seal; DELETE FROM result; DELETE FROM event WHERE chunk > 3; DELETE FROM chunk WHERE seq > 3; DELETE FROM artifact WHERE "
+      "name = 'final_tooth.cvt'");
   return cut;
 }
-/// Takes it up as `exam --resume --end` does at the station of the present CAVUM_HOME, and closes it.
+/// Takes it up as `exam --resume --end` does at the station of the present CAVUM_HOME, and closes
+/// it.
 void close_again(const std::string& session) {
   const auto setup = scenarios::prepare_exam(SessionReader(session).setup());
-  const auto exam = scenarios::Exam::resume(*setup, session, {{}, require_not_closed(setup->session.notes, session)});
+  const auto exam = scenarios::Exam::resume(
+      *setup, session, {{}, require_not_closed(setup->session.notes, session)});
   if (!exam->over()) exam->end();
   static_cast<void>(grading::grade_and_close(*exam));
 }
@@ -339,7 +378,8 @@ TEST_F(Attack, AnExamTakenUpAgainWhereTheMemoryOfUsedTicketsIsGone) {
   expect_refused(cut, Kind::station_changed);
 }
 TEST_F(Attack, NoneIsAnExamThatWasKilledAndTakenUpAgainAtItsStation) {
-  // the same file, at a station that began it and did not close it: what a crash leaves. A memory that was put back to that looks alike.
+  // the same file, at a station that began it and did not close it: what a crash leaves. A memory
+  // that was put back to that looks alike.
   remember_use({parse_ticket(ticket_, "", "ticket"), ticket_, "t"}, "exam.cavum");
   const std::string cut = cut_back(school_, session_, "cut.cavum");
   const SessionExplanation open = explain_session(cut, "");
@@ -376,27 +416,38 @@ TEST_F(Attack, TwoEndingsOfOneExam) {
 
   // a person chooses one, by its entry, and that one alone counts
   const std::string candidate = registry.sessions[0].candidate;
-  const auto refused = [&](const ReleaseCommand& wish, const std::optional<ErrorCode>& why, const std::vector<std::string>& names) {
+  const auto refused = [&](const ReleaseCommand& wish, const std::optional<ErrorCode>& why,
+                           const std::vector<std::string>& names) {
     const auto error = thrown_by([&] { release_results(ledger, wish); });
     EXPECT_EQ(code_of(error), why) << text_of(error);
-    for (const auto& n : names) EXPECT_NE(text_of(error).find(n), std::string::npos) << "'" << n << "' is missing in: " << text_of(error);
+    for (const auto& n : names)
+      EXPECT_NE(text_of(error).find(n), std::string::npos)
+          << "'" << n << "' is missing in: " << text_of(error);
     EXPECT_TRUE(std::none_of(ledger.content().entries.begin(), ledger.content().entries.end(),
                              [](const LedgerEntry& e) { return e.as<ReleaseEntry>() != nullptr; }));
   };
-  refused({.with_findings = true, .candidates = {candidate}}, LedgerError::contested, {candidate, "4", "5"});
+  refused({.with_findings = true, .candidates = {candidate}}, LedgerError::contested,
+          {candidate, "4", "5"});
   refused({.with_findings = true, .sessions = {4, 5}}, LedgerError::contested, {"4", "5"});
   refused({.sessions = {4}}, LedgerError::questioned, {"4", "5"});
   refused({.with_findings = true, .sessions = {1}}, LedgerError::unknown, {"1"});
-  EXPECT_EQ(release_results(ledger, {.all = true}).kept_back, 2u);
+  EXPECT_EQ(release_results(ledger, {.all = true}).withheld, 2u);
   // both at once is no choice
   ledger.append([](const LedgerContent&) { return ReleaseEntry{{4, 5}}; });
-  for (const auto& s : read_registry(ledger.content()).sessions) EXPECT_TRUE(s.shown->is_null() && s.doubtful()) << s.seq;
+  for (const auto& s : read_registry(ledger.content()).sessions)
+    EXPECT_TRUE(s.shown->is_null() && s.doubtful()) << s.seq;
   expect_finding(check_ledger(school_.places(), false).remarks, Kind::release_void, {"4", "5"});
-  EXPECT_EQ(release_results(ledger, {.with_findings = true, .sessions = {4}}).results, std::vector<std::uint64_t>{4});
-  const auto again = thrown_by([&] { release_results(ledger, {.with_findings = true, .sessions = {5}}); });
+  EXPECT_EQ(release_results(ledger, {.with_findings = true, .sessions = {4}}).results,
+            std::vector<std::uint64_t>{4});
+  const auto again =
+      thrown_by([&] { release_results(ledger, {.with_findings = true, .sessions = {5}}); });
   EXPECT_EQ(code_of(again), LedgerError::contested);
-  EXPECT_NE(text_of(again).find("4"), std::string::npos) << "it was chosen before: " << text_of(again);
-  EXPECT_EQ(release_results(ledger, {.with_findings = true, .candidates = {candidate}}).results.size(), 0u) << "the other is not released with it";
+  EXPECT_NE(text_of(again).find("4"), std::string::npos)
+      << "it was chosen before: " << text_of(again);
+  EXPECT_EQ(
+      release_results(ledger, {.with_findings = true, .candidates = {candidate}}).results.size(),
+      0u)
+      << "the other is not released with it";
   // not even by an entry that some other program makes
   ledger.append([](const LedgerContent&) { return ReleaseEntry{{5}}; });
   const Registry chosen = read_registry(ledger.content());
@@ -408,7 +459,9 @@ TEST_F(Attack, TwoEndingsOfOneExam) {
   Identities identities(school_.places().identities());
   int left_out = 0;
   const std::string csv = moodle_csv(chosen, identities, left_out, english_text);
-  EXPECT_NE(csv.find("\n4711," + chosen.sessions[0].filed->at("score")["points"].dump() + ","), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\n4711," + chosen.sessions[0].filed->at("score")["points"].dump() + ","),
+            std::string::npos)
+      << csv;
   EXPECT_NE(csv.find(" 5"), std::string::npos) << "the ending that was not chosen: " << csv;
   const auto scores = lti_scores(chosen, identities, english_text);
   ASSERT_EQ(scores.size(), 1u);
@@ -426,7 +479,8 @@ TEST_F(Attack, AnEndingThatWasReleasedBeforeItWasContested) {
   const auto now = [&] { return read_registry(ledger.content()).sessions; };
   const std::uint64_t other = now().at(1).seq;
   EXPECT_TRUE(now()[0].released && now()[0].doubtful()) << "it stands, and a person has to look";
-  EXPECT_EQ(release_results(ledger, {.with_findings = true, .sessions = {other}}).results.size(), 1u);
+  EXPECT_EQ(release_results(ledger, {.with_findings = true, .sessions = {other}}).results.size(),
+            1u);
   EXPECT_TRUE(now()[0].shown->is_null()) << "one counts";
   EXPECT_FALSE(now()[0].released);
   EXPECT_TRUE(now()[1].chosen);
@@ -436,7 +490,8 @@ TEST_F(Attack, AnEndingThatWasReleasedBeforeItWasContested) {
 TEST_F(Attack, ABeginningThatIsSaidToBeAnotherStations) {
   const std::string cut = cut_back(school_, session_, "cut.cavum");
   EXPECT_TRUE(check_chain(SessionReader(cut)).empty());
-  test::tamper(cut, "UPDATE meta SET value = '" + std::string(64, 'b') + "' WHERE key = 'station_key'");
+  test::tamper(cut,
+               "UPDATE meta SET value = '" + std::string(64, 'b') + "' WHERE key = 'station_key'");
   // and the chain is made anew, as anybody can who reads how its hashes are made
   const SessionReader changed(cut);
   Sha256 before = genesis_hash(changed.meta(), changed.artifacts());
@@ -444,7 +499,8 @@ TEST_F(Attack, ABeginningThatIsSaidToBeAnotherStations) {
   for (ChunkRow c : changed.chunks()) {
     c.prev_sha256 = before;
     before = chunk_hash(c);
-    sql += "UPDATE chunk SET prev_sha256 = " + blob(c.prev_sha256) + ", sha256 = " + blob(before) + " WHERE seq = " + std::to_string(c.seq) + ";";
+    sql += "UPDATE chunk SET prev_sha256 = " + blob(c.prev_sha256) + ", sha256 = " + blob(before) +
+           " WHERE seq = " + std::to_string(c.seq) + ";";
   }
   test::tamper(cut, sql);
   const auto findings = check_chain(SessionReader(cut));

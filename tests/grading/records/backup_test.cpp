@@ -1,4 +1,5 @@
-// A ledger is copied while others add to it, and goes on from a copy with an honest record of what was lost.
+// A ledger is copied while others add to it, and goes on from a copy with an honest record of what
+// was lost.
 #include "grading/records/backup.h"
 
 #include <sys/mman.h>
@@ -20,25 +21,30 @@ namespace fs = std::filesystem;
 using namespace testing_ledger;
 using nlohmann::json;
 
-/// One school, one filed session (entry 4), and another that is not filed yet; each test works on a copy.
+/// One school, one filed session (entry 4), and another that is not filed yet; each test works on a
+/// copy.
 class BackedUp : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     shared_ = new School();
     Ledger ledger = shared_->ledger();
     ASSERT_TRUE(file_session(ledger, shared_->sit(shared_->ticket("4711"))).seq);
-    shared_later_ = new std::string(fs::path(shared_->sit(shared_->ticket("4712"), "novice")).filename().string());
+    shared_later_ = new std::string(
+        fs::path(shared_->sit(shared_->ticket("4712"), "novice")).filename().string());
   }
   static void TearDownTestSuite() {
     delete shared_;
     delete shared_later_;
   }
-  Backup back_up(bool with_identities = false) const { return records::back_up(school_.places(), backup(), with_identities); }
+  Backup back_up(bool with_identities = false) const {
+    return records::back_up(school_.places(), backup(), with_identities);
+  }
   std::string backup() const { return school_.file("backup"); }
-  LedgerPlaces restored() const { return {school_.file("restored")}; }
+  LedgerPaths restored() const { return {school_.file("restored")}; }
   void add(int entries) const {
     Ledger ledger = school_.ledger();
-    for (int i = 0; i < entries; ++i) ledger.append([](const LedgerContent&) { return ForgetEntry{"C-" + random_hex(4), {}}; });
+    for (int i = 0; i < entries; ++i)
+      ledger.append([](const LedgerContent&) { return ForgetEntry{"C-" + random_hex(4), {}}; });
   }
   json file_later() const {
     Ledger ledger = school_.ledger();
@@ -62,18 +68,21 @@ TEST_F(BackedUp, IsALedgerThatHoldsAndItsOwnersAlone) {
   EXPECT_TRUE(b.missing.empty());
   EXPECT_FALSE(fs::exists(backup() + "/identities.db")) << "names are copied only when asked for";
   EXPECT_TRUE(check_ledger({backup()}, true).findings.empty());
-  const ReadCheckpoint note = parse_checkpoint(read_text_file(backup() + "/checkpoint"), to_hex(School::key().public_key), "checkpoint");
+  const ReadCheckpoint note = parse_checkpoint(read_text_file(backup() + "/checkpoint"),
+                                               to_hex(School::key().public_key), "checkpoint");
   EXPECT_EQ(note.checkpoint.root, b.checkpoint.root);
   struct stat info {};
   for (const std::string& f :
-       {backup() + "/ledger.db", LedgerPlaces{backup()}.session(read_registry(read_ledger({backup()})).sessions[0].file_sha256)}) {
+       {backup() + "/ledger.db",
+        LedgerPaths{backup()}.session(
+            read_registry(read_ledger({backup()})).sessions[0].file_sha256)}) {
     ASSERT_EQ(::stat(f.c_str(), &info), 0) << f;
     EXPECT_EQ(info.st_mode & 077, 0u) << f;
   }
   ASSERT_EQ(::stat(backup().c_str(), &info), 0);
   EXPECT_EQ(info.st_mode & 077, 0u);
   EXPECT_TRUE(back_up(true).identities);
-  EXPECT_EQ(Identities(LedgerPlaces{backup()}.identities()).all().size(), 2u);
+  EXPECT_EQ(Identities(LedgerPaths{backup()}.identities()).all().size(), 2u);
 }
 
 /// What three programs and the test say to each other.
@@ -87,7 +96,9 @@ int add_until_enough(const School& school, Growth& growth) {
   try {
     Ledger ledger = school.ledger();
     while (!growth.enough) try {
-        ledger.append([&](const LedgerContent&) { return ForgetEntry{"C-" + random_hex(200), {}}; });
+        ledger.append([&](const LedgerContent&) {
+          return ForgetEntry{"C-" + random_hex(200), {}};
+        });
         ++growth.added;
       } catch (const DatabaseError& e) {  // another one has it at the moment
         if (e.refusal().fault != DiskFault::held) return 2;
@@ -99,7 +110,8 @@ int add_until_enough(const School& school, Growth& growth) {
 }
 
 TEST_F(BackedUp, WhileThreeProgramsAddToIt) {
-  void* shared = ::mmap(nullptr, sizeof(Growth), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  void* shared =
+      ::mmap(nullptr, sizeof(Growth), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   ASSERT_NE(shared, MAP_FAILED);
   Growth& growth = *new (shared) Growth;
   std::vector<pid_t> programs;
@@ -130,7 +142,8 @@ TEST_F(BackedUp, WhileThreeProgramsAddToIt) {
   const LedgerContent all = read_ledger(school_.places());
   EXPECT_TRUE(all.findings.empty());
   EXPECT_EQ(all.entries.size(), 6u + growth.added);
-  for (const auto& p : copies) EXPECT_EQ(History(all).standing_of(p), Standing::begins_with_it) << p.size;
+  for (const auto& p : copies)
+    EXPECT_EQ(History(all).standing_of(p), Standing::begins_with_it) << p.size;
   ::munmap(shared, sizeof(Growth));
 }
 
@@ -159,7 +172,9 @@ TEST_F(BackedUp, IsNotReplacedByALedgerThatWasPutBack) {
 }
 
 TEST_F(BackedUp, ALedgerThatDoesNotHoldIsNotBackedUp) {
-  test::tamper(school_.places().database(), "DROP TRIGGER entry_stays; UPDATE entry SET text = replace(text, 'C-', 'D-') WHERE seq = 1");
+  test::tamper(
+      school_.places().database(),
+      "DROP TRIGGER entry_stays; UPDATE entry SET text = replace(text, 'C-', 'D-') WHERE seq = 1");
   EXPECT_THROW(back_up(), Error);
   EXPECT_FALSE(fs::exists(backup()));
 }
@@ -172,7 +187,8 @@ TEST_F(BackedUp, ASessionThatIsGoneIsNamed) {
   EXPECT_EQ(plan.missing_sessions, std::vector<std::string>{filed.file_sha256});
   restore(backup(), restored().folder, plan, "", School::key());
   const LedgerContent c = read_ledger(restored());
-  EXPECT_EQ(c.entries.back().as<RestoreEntry>()->missing_sessions, std::vector<std::string>{filed.file_sha256});
+  EXPECT_EQ(c.entries.back().as<RestoreEntry>()->missing_sessions,
+            std::vector<std::string>{filed.file_sha256});
   expect_kinds(check_ledger(restored(), false).findings, {Kind::file_gone});
 }
 
@@ -202,8 +218,11 @@ TEST_F(BackedUp, AnOlderOneSaysWhatIsMissingAndGoesOn) {
   ASSERT_TRUE(plan.last_seen);
   EXPECT_EQ(plan.last_seen->checkpoint.size, 10u) << "the witness has seen more than the receipt";
   expect_told(plan.lost_entries, {"6", "9"});
-  expect_told(plan.lost_entries, {"7", read_registry(read_ledger(school_.places())).sessions.at(1).candidate, "r.json"});
-  EXPECT_THROW(restore(backup(), restored().folder, plan, "", School::key()), Error) << "a person accepts the loss";
+  expect_told(
+      plan.lost_entries,
+      {"7", read_registry(read_ledger(school_.places())).sessions.at(1).candidate, "r.json"});
+  EXPECT_THROW(restore(backup(), restored().folder, plan, "", School::key()), Error)
+      << "a person accepts the loss";
   EXPECT_FALSE(fs::exists(restored().folder));
 
   restore(backup(), restored().folder, plan, "the disk died", School::key());
@@ -226,7 +245,8 @@ TEST_F(BackedUp, AnOlderOneSaysWhatIsMissingAndGoesOn) {
   EXPECT_TRUE(check_receipt(receipt, c.public_key, &ledger.content()).empty());
   // the witness remembers both, and the ledger that was left is no longer added to
   Findings findings;
-  EXPECT_EQ(read_witness(c.id, findings).size(), 12u) << "ten of before, the restore and what was added since";
+  EXPECT_EQ(read_witness(c.id, findings).size(), 12u)
+      << "ten of before, the restore and what was added since";
   EXPECT_TRUE(check_ledger(restored(), false).findings.empty());
   expect_kinds(check_ledger(school_.places(), false).findings, {Kind::rewritten});
   EXPECT_THROW(school_.ledger(), Error);
@@ -248,14 +268,17 @@ TEST_F(BackedUp, WhereNoWitnessIsANoteOrAReceiptTells) {
   EXPECT_EQ(History(c).standing_of(last), Standing::loss_on_record);
   Checkpoint other = last;
   other.root[0] ^= 1;
-  EXPECT_NE(History(c).standing_of(other), Standing::loss_on_record) << "what was lost had that root and no other";
+  EXPECT_NE(History(c).standing_of(other), Standing::loss_on_record)
+      << "what was lost had that root and no other";
   other = last;
   other.size = 10;
-  EXPECT_EQ(History(c).standing_of(other), Standing::older_copy) << "nor was more on record than what was seen";
+  EXPECT_EQ(History(c).standing_of(other), Standing::older_copy)
+      << "nor was more on record than what was seen";
   std::string changed = read_text_file(school_.file("note"));
   changed.replace(changed.find("\n9\n"), 3, "\n7\n");
   write_text_file(school_.file("note"), changed);
-  EXPECT_THROW(static_cast<void>(plan_restore(backup(), {}, {school_.file("note")})), Error) << "a note that the school did not sign tells nothing";
+  EXPECT_THROW(static_cast<void>(plan_restore(backup(), {}, {school_.file("note")})), Error)
+      << "a note that the school did not sign tells nothing";
 }
 
 TEST_F(BackedUp, OfAnotherHistoryIsNotRestored) {
@@ -278,7 +301,8 @@ TEST_F(BackedUp, IsRestoredAgainAfterTheRestoredOneWasLost) {
   restore(backup(), restored().folder, plan_restore(backup(), {}, {}), "first", School::key());
   {
     Ledger ledger(restored().folder, School::key());
-    for (int i = 0; i < 5; ++i) ledger.append([](const LedgerContent&) { return ForgetEntry{"C-a", {}}; });
+    for (int i = 0; i < 5; ++i)
+      ledger.append([](const LedgerContent&) { return ForgetEntry{"C-a", {}}; });
   }
   const RestorePlan plan = plan_restore(backup(), {}, {});
   ASSERT_TRUE(plan.last_seen);
@@ -291,7 +315,7 @@ TEST_F(BackedUp, IsRestoredAgainAfterTheRestoredOneWasLost) {
 TEST_F(BackedUp, OneWhoseLastEntriesWereCutOffIsNotTheOneThatWasTaken) {
   back_up();
   test::tamper(
-      LedgerPlaces{backup()}.database(),
+      LedgerPaths{backup()}.database(),
       "DROP TRIGGER entry_is_kept; DROP TRIGGER note_is_kept; DELETE FROM entry WHERE seq = (SELECT max(seq) FROM entry); DELETE FROM note WHERE "
       "size = (SELECT max(size) FROM note); CREATE TRIGGER entry_is_kept BEFORE DELETE ON entry BEGIN SELECT RAISE(ABORT, 'the ledger is append "
       "only'); END; CREATE TRIGGER note_is_kept BEFORE DELETE ON note BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;");
@@ -312,7 +336,8 @@ TEST_F(BackedUp, ASecondOneCutOffBeforeItSaysWhatItHoldsIsStillABackup) {
 }
 
 TEST_F(BackedUp, WhoWasForgottenBeforeStaysForgotten) {
-  const std::string candidate = read_registry(read_ledger(school_.places())).sessions.at(0).candidate;
+  const std::string candidate =
+      read_registry(read_ledger(school_.places())).sessions.at(0).candidate;
   const Bytes names = read_file(school_.places().identities());
   Identities(school_.places().identities()).forget(candidate);
   {
@@ -321,32 +346,44 @@ TEST_F(BackedUp, WhoWasForgottenBeforeStaysForgotten) {
   }
   write_file(school_.places().identities(), names);  // somebody restored an old copy of these alone
   back_up(true);
-  EXPECT_FALSE(Identities(LedgerPlaces{backup()}.identities()).of_pseudonym(candidate));
-  EXPECT_TRUE(Identities(school_.places().identities()).of_pseudonym(candidate)) << "the ledger's own file is not touched";
+  EXPECT_FALSE(Identities(LedgerPaths{backup()}.identities()).of_pseudonym(candidate));
+  EXPECT_TRUE(Identities(school_.places().identities()).of_pseudonym(candidate))
+      << "the ledger's own file is not touched";
 }
 
 TEST_F(BackedUp, ACosignerRefusesARestoredLedgerUntilAPersonMovesWhatItRemembers) {
-  const std::string school = to_hex(School::key().public_key), id = read_ledger(school_.places()).id;
-  const Cosigner cosigner{"cosigner.example/one", load_signing_key(school_.file("cosigner.key"), "cosigner"), school_.file("memory"), school};
+  const std::string school = to_hex(School::key().public_key),
+                    id = read_ledger(school_.places()).id;
+  const Cosigner cosigner{"cosigner.example/one",
+                          load_signing_key(school_.file("cosigner.key"), "cosigner"),
+                          school_.file("memory"), school};
   back_up();
   add(2);
-  ASSERT_TRUE(cosign(cosigner, cosign_request(read_ledger(school_.places()), 0), "request", 1).findings.empty());
-  restore(backup(), restored().folder, plan_restore(backup(), {}, {}), "the disk died", School::key());
+  ASSERT_TRUE(cosign(cosigner, cosign_request(read_ledger(school_.places()), 0), "request", 1)
+                  .findings.empty());
+  restore(backup(), restored().folder, plan_restore(backup(), {}, {}), "the disk died",
+          School::key());
   Ledger ledger(restored().folder, School::key());
-  expect_kinds(cosign(cosigner, cosign_request(ledger.content(), 7), "request", 1).findings, {Kind::older_copy});
-  for (int i = 0; i < 3; ++i) ledger.append([](const LedgerContent&) { return ForgetEntry{"C-a", {}}; });
-  expect_kinds(cosign(cosigner, cosign_request(ledger.content(), 8), "request", 1).findings, {Kind::rewritten});
+  expect_kinds(cosign(cosigner, cosign_request(ledger.content(), 7), "request", 1).findings,
+               {Kind::older_copy});
+  for (int i = 0; i < 3; ++i)
+    ledger.append([](const LedgerContent&) { return ForgetEntry{"C-a", {}}; });
+  expect_kinds(cosign(cosigner, cosign_request(ledger.content(), 8), "request", 1).findings,
+               {Kind::rewritten});
   fs::rename(school_.file("memory/" + id), school_.file("kept"));
   EXPECT_TRUE(cosign(cosigner, cosign_request(ledger.content(), 0), "request", 1).findings.empty());
   const auto check =
-      check_cosigned(read_text_file(school_.file("kept")).substr(read_text_file(school_.file("kept")).find('\n') + 1), {}, ledger.content());
+      check_cosigned(read_text_file(school_.file("kept"))
+                         .substr(read_text_file(school_.file("kept")).find('\n') + 1),
+                     {}, ledger.content());
   EXPECT_TRUE(check.findings.empty()) << "what it signed before is on record as lost";
 }
 
 TEST_F(BackedUp, AnotherSchoolsKeyRestoresNothing) {
   back_up();
   const SigningKey other = load_signing_key(school_.file("other.key"), "school");
-  EXPECT_THROW(restore(backup(), restored().folder, plan_restore(backup(), {}, {}), "", other), Error);
+  EXPECT_THROW(restore(backup(), restored().folder, plan_restore(backup(), {}, {}), "", other),
+               Error);
   EXPECT_FALSE(fs::exists(restored().folder));
 }
 

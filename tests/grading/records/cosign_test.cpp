@@ -1,5 +1,5 @@
-// Checkpoints as notes, and what other parties' word for them finds: a ledger that was put back together with its witness, a history that was
-// rewritten.
+// Checkpoints as notes, and what other parties' word for them finds: a ledger that was put back
+// together with its witness, a history that was rewritten.
 #include "grading/records/cosign.h"
 
 #include <random>
@@ -25,22 +25,29 @@ class Cosigning : public testing::Test {
  protected:
   void add(int entries) {
     Ledger ledger = school_.ledger();
-    for (int i = 0; i < entries; ++i) ledger.append([](const LedgerContent&) { return ForgetEntry{"C-" + random_hex(4), {}}; });
+    for (int i = 0; i < entries; ++i)
+      ledger.append([](const LedgerContent&) { return ForgetEntry{"C-" + random_hex(4), {}}; });
   }
   LedgerContent content() const { return read_ledger(school_.places()); }
   Cosigned sign(const std::string& request, const std::string& school_key = "") const {
-    return cosign({"cosigner.example/one", key_, school_.file("memory"), school_key}, request, "request", k_now_s);
+    return cosign({"cosigner.example/one", key_, school_.file("memory"), school_key}, request,
+                  "request", k_now_s);
   }
   std::string school_key() const { return to_hex(School::key().public_key); }
-  std::vector<NoteKey> known() const { return {{"cosigner.example/one", NoteKind::cosignature, key_.public_key}}; }
+  std::vector<NoteKey> known() const {
+    return {{"cosigner.example/one", NoteKind::cosignature, key_.public_key}};
+  }
   /// The ledger and its witness, as somebody copies them who wants to put them back.
   struct Copy {
     Bytes database, witness;
   };
-  Copy copy() const { return {read_file(school_.places().database()), read_file(witness_path(content().id))}; }
+  Copy copy() const {
+    return {read_file(school_.places().database()), read_file(witness_path(content().id))};
+  }
   void put_back(const Copy& c) const {
     const std::string witness = witness_path(content().id);
-    for (const char* end : {"-wal", "-shm"}) std::filesystem::remove(school_.places().database() + end);
+    for (const char* end : {"-wal", "-shm"})
+      std::filesystem::remove(school_.places().database() + end);
     write_file(school_.places().database(), c.database);
     write_file(witness, c.witness);
   }
@@ -54,8 +61,8 @@ TEST_F(Cosigning, ACheckpointIsANoteOfFourLines) {
   ASSERT_EQ(c.checkpoints.size(), 1u);
   const Checkpoint& p = c.checkpoints[0];
   const std::string note = checkpoint_note(c.id, c.public_key, p);
-  EXPECT_TRUE(note.starts_with("cavum.ledger/" + c.id + "\n1\n" + to_base64(p.root) + "\nutc_ns " + std::to_string(p.utc_ns) + "\n\n— cavum.ledger/" +
-                               c.id + " "))
+  EXPECT_TRUE(note.starts_with("cavum.ledger/" + c.id + "\n1\n" + to_base64(p.root) + "\nutc_ns " +
+                               std::to_string(p.utc_ns) + "\n\n— cavum.ledger/" + c.id + " "))
       << note;
   const ReadCheckpoint read = parse_checkpoint(note, c.public_key, "note");
   EXPECT_EQ(read.ledger_id, c.id);
@@ -102,7 +109,8 @@ TEST_F(Cosigning, AForkIsRefused) {
   ASSERT_TRUE(sign(cosign_request(content(), 0), school_key()).findings.empty());
   const std::string memory = read_text_file(school_.file("memory/" + content().id));
   put_back(old);
-  add(4);  // another history, which the school's own key has signed, and which its witness knows nothing against
+  add(4);  // another history, which the school's own key has signed, and which its witness knows
+           // nothing against
   EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
   const std::string request = cosign_request(content(), 6);
   expect_kinds(sign(request).findings, {Kind::rewritten});
@@ -110,7 +118,8 @@ TEST_F(Cosigning, AForkIsRefused) {
   std::string bare = request;
   bare.erase(bare.find('\n') + 1, bare.find("\n\n") - bare.find('\n'));
   expect_kinds(sign(bare).findings, {Kind::rewritten});
-  EXPECT_EQ(read_text_file(school_.file("memory/" + content().id)), memory) << "what was refused is not remembered";
+  EXPECT_EQ(read_text_file(school_.file("memory/" + content().id)), memory)
+      << "what was refused is not remembered";
 }
 
 TEST_F(Cosigning, AnotherRootOfTheSameSizeIsRefused) {
@@ -135,12 +144,17 @@ TEST_F(Cosigning, ASmallerOneIsRefused) {
 
 TEST_F(Cosigning, TrustsNoKeyThatTheFileItselfNames) {
   const std::string request = cosign_request(content(), 0);
-  const auto why = [&](const std::string& text, const std::string& key = "") { return code_of([&] { static_cast<void>(sign(text, key)); }); };
+  const auto why = [&](const std::string& text, const std::string& key = "") {
+    return code_of([&] { static_cast<void>(sign(text, key)); });
+  };
   EXPECT_EQ(why(request), LedgerError::unknown);
-  expect_kinds(sign(request, std::string(64, 'a')).findings, {Kind::signature_invalid});  // not signed by that key
+  expect_kinds(sign(request, std::string(64, 'a')).findings,
+               {Kind::signature_invalid});  // not signed by that key
   ASSERT_TRUE(sign(request, school_key()).findings.empty());
-  EXPECT_EQ(why(request, std::string(64, 'a')), LedgerError::another_key) << "than that by which it was cosigned before";
-  EXPECT_EQ(why(request), LedgerError::another_state) << "the proof has to begin where this cosigner stopped";
+  EXPECT_EQ(why(request, std::string(64, 'a')), LedgerError::another_key)
+      << "than that by which it was cosigned before";
+  EXPECT_EQ(why(request), LedgerError::another_state)
+      << "the proof has to begin where this cosigner stopped";
   const std::string path = school_.file("memory/" + content().id);
   std::string memory = read_text_file(path);
   memory.replace(memory.find("\n1\n"), 3, "\n0\n");
@@ -148,7 +162,8 @@ TEST_F(Cosigning, TrustsNoKeyThatTheFileItselfNames) {
   const auto changed = thrown_by([&] { static_cast<void>(sign(cosign_request(content(), 1))); });
   EXPECT_EQ(code_of(changed), LedgerError::another_state) << "somebody has put its memory back";
   EXPECT_TRUE(tells(changed, path));
-  for (const char* bad : {"", "old 0\n", "old x\n\n", "old 01\n\nx", "new 0\n\nx", "old 0\nAAAA\n\nx"})
+  for (const char* bad :
+       {"", "old 0\n", "old x\n\n", "old 01\n\nx", "new 0\n\nx", "old 0\nAAAA\n\nx"})
     EXPECT_THROW(static_cast<void>(sign(bad, school_key())), Error) << bad;
 }
 
@@ -162,7 +177,8 @@ TEST_F(Cosigning, AMemoryThatWasPutBackIsNotNoticed) {
   add(3);
   expect_kinds(sign(cosign_request(content(), 3)).findings, {Kind::rewritten});
   write_text_file(path, memory);
-  EXPECT_TRUE(sign(cosign_request(content(), 1)).findings.empty()) << "its own backups are the cosigner's affair";
+  EXPECT_TRUE(sign(cosign_request(content(), 1)).findings.empty())
+      << "its own backups are the cosigner's affair";
 }
 
 TEST_F(Cosigning, AnyBytesAreAnsweredWithAnErrorOrAFindingAndNeverSigned) {
@@ -171,7 +187,8 @@ TEST_F(Cosigning, AnyBytesAreAnsweredWithAnErrorOrAFindingAndNeverSigned) {
   ASSERT_TRUE(sound.findings.empty());
   add(3);
   const LedgerContent c = content();
-  const std::string request = cosign_request(c, 5), memory_path = school_.file("memory/" + c.id), memory = read_text_file(memory_path);
+  const std::string request = cosign_request(c, 5), memory_path = school_.file("memory/" + c.id),
+                    memory = read_text_file(memory_path);
   const std::string key = key_line(known()[0]);
   std::mt19937_64 draw(testing_basics::drawn_seed("cosign"));
   const auto changed = [&](std::string text) {
@@ -202,7 +219,10 @@ TEST_F(Cosigning, AnyBytesAreAnsweredWithAnErrorOrAFindingAndNeverSigned) {
     }
   };
   for (int i = 0; i < k_changes; ++i) {
-    answer([&] { EXPECT_FALSE(sign(changed(request)).findings.empty()) << "a request that was changed, however little, is not signed"; });
+    answer([&] {
+      EXPECT_FALSE(sign(changed(request)).findings.empty())
+          << "a request that was changed, however little, is not signed";
+    });
     const auto note = check_cosigned(changed(sound.note), known(), c);
     if (note.checkpoint) {
       EXPECT_EQ(note.checkpoint->root, c.checkpoints.at(4).root);
@@ -224,12 +244,15 @@ TEST_F(Cosigning, ALedgerPutBackWithItsWitnessIsFoundByACosignedNoteOrAReceiptAn
   add(1);
   const Cosigned cosigned = sign(cosign_request(content(), 0), school_key());
   ASSERT_TRUE(cosigned.findings.empty());
-  Ledger(school_.ledger_folder(), School::key()).keep_cosignatures(3, check_cosigned(cosigned.note, known(), content()).cosignatures);
+  Ledger(school_.ledger_folder(), School::key())
+      .keep_cosignatures(3, check_cosigned(cosigned.note, known(), content()).cosignatures);
   EXPECT_EQ(last_cosigned(content()), 3u);
   const json receipt = make_receipt(content(), 2);
   put_back(old);
-  EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty()) << "the cosignature in the ledger went with it";
-  expect_finding(check_cosigned(cosigned.note, known(), content()).findings, Kind::older_copy, {"2", "3"});
+  EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty())
+      << "the cosignature in the ledger went with it";
+  expect_finding(check_cosigned(cosigned.note, known(), content()).findings, Kind::older_copy,
+                 {"2", "3"});
   LedgerContent now = content();
   expect_finding(check_receipt(receipt, school_key(), &now), Kind::older_copy, {"2", "3"});
   add(3);
@@ -239,7 +262,8 @@ TEST_F(Cosigning, ALedgerPutBackWithItsWitnessIsFoundByACosignedNoteOrAReceiptAn
   expect_kinds(check_receipt(receipt, school_key(), &now), {Kind::rewritten});
   std::filesystem::remove(witness_path(now.id));
   EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
-  expect_kinds(check_ledger(school_.places(), false).not_checked, {Kind::older_copy});  // there is no witness
+  expect_kinds(check_ledger(school_.places(), false).not_checked,
+               {Kind::older_copy});  // there is no witness
 }
 
 TEST_F(Cosigning, ANoteThatNobodyKnownCosignedIsNotTakenForOne) {
@@ -249,18 +273,22 @@ TEST_F(Cosigning, ANoteThatNobodyKnownCosignedIsNotTakenForOne) {
   expect_kinds(unknown.not_checked, {Kind::cosignature_unknown});
   SignedNote changed = parse_note(cosigned.note, "note");
   changed.signatures.at(1).signature[20] ^= 1;
-  expect_finding(check_cosigned(write_note(changed), known(), content()).findings, Kind::cosignature_invalid, {"cosigner.example/one"});
+  expect_finding(check_cosigned(write_note(changed), known(), content()).findings,
+                 Kind::cosignature_invalid, {"cosigner.example/one"});
   changed = parse_note(cosigned.note, "note");
   changed.signatures.erase(changed.signatures.begin());
-  expect_kinds(check_cosigned(write_note(changed), known(), content()).findings, {Kind::signature_invalid});
+  expect_kinds(check_cosigned(write_note(changed), known(), content()).findings,
+               {Kind::signature_invalid});
   changed = parse_note(cosigned.note, "note");
   changed.signatures.at(0).signature[20] ^= 1;
-  expect_kinds(check_cosigned(write_note(changed), known(), content()).findings, {Kind::signature_invalid});
+  expect_kinds(check_cosigned(write_note(changed), known(), content()).findings,
+               {Kind::signature_invalid});
   expect_kinds(check_cosigned("no note", known(), content()).findings, {Kind::malformed});
 }
 
 TEST_F(Cosigning, WhatIsKeptStandsInReceiptsAndIsChecked) {
-  const auto check = check_cosigned(sign(cosign_request(content(), 0), school_key()).note, known(), content());
+  const auto check =
+      check_cosigned(sign(cosign_request(content(), 0), school_key()).note, known(), content());
   {
     Ledger ledger = school_.ledger();
     ledger.keep_cosignatures(1, check.cosignatures);
@@ -291,7 +319,8 @@ TEST_F(Cosigning, AnEarlierBeginningIsProvedAndNoOther) {
     const json r = make_receipt(c, 4, from);
     EXPECT_TRUE(check_receipt(r, school_key(), nullptr).empty()) << from;
     json other = r;
-    other["consistency"]["from"] = make_receipt(c, 4, from == 7 ? 6 : from + 1)["consistency"]["from"];
+    other["consistency"]["from"] =
+        make_receipt(c, 4, from == 7 ? 6 : from + 1)["consistency"]["from"];
     expect_kinds(check_receipt(other, school_key(), nullptr), {Kind::tree_differs});
     other = r;
     other["consistency"]["proof"].push_back(std::string(64, '0'));
@@ -305,7 +334,8 @@ TEST_F(Cosigning, TheWitnessRemembersWhatWasSigned) {
   const std::string path = witness_path(content().id);
   const std::string sound = read_text_file(path);
   // a line of somebody else's making accuses nobody
-  write_text_file(path, sound + "9 " + std::string(64, '1') + " 1 " + to_base64(Bytes(64, 7)) + "\n");
+  write_text_file(path,
+                  sound + "9 " + std::string(64, '1') + " 1 " + to_base64(Bytes(64, 7)) + "\n");
   expect_finding(content().findings, Kind::witness_changed, {"9", path});
   // a line that a power cut left short, and what was told after it
   write_text_file(path, sound.substr(0, sound.size() - 40));

@@ -1,4 +1,5 @@
-// A result that the program leaves to a person waits until one has decided; what he decided is an entry, a result of its own, and what goes out.
+// A result that the program leaves to a person waits until one has decided; what he decided is an
+// entry, a result of its own, and what goes out.
 #include "grading/records/decision.h"
 
 #include "grading/records/appeal.h"
@@ -32,18 +33,24 @@ class LeftToAPerson : public testing::Test {
     json review = *session().result;
     entry_ = session().seq;
     review["verdict"] = "review";
-    review["verdict_reasons"] = json::array({to_json(grading::finding<grading::FindingKind::force_without_tissue>())});
+    review["verdict_reasons"] =
+        json::array({to_json(grading::finding<grading::FindingKind::force_without_tissue>())});
     enter_regrade(ledger, entry_, review, {}, "as if the program had left it to a person");
   }
-  FiledSession session() const { return read_registry(read_ledger(school_.places())).sessions.at(0); }
+  FiledSession session() const {
+    return read_registry(read_ledger(school_.places())).sessions.at(0);
+  }
   std::string moodle() const {
     Identities identities(school_.places().identities());
     int left_out = 0;
-    return moodle_csv(read_registry(read_ledger(school_.places())), identities, left_out, english_text);
+    return moodle_csv(read_registry(read_ledger(school_.places())), identities, left_out,
+                      english_text);
   }
   json lti() const {
     Identities identities(school_.places().identities());
-    return lti_scores(read_registry(read_ledger(school_.places())), identities, english_text).at(0).at("score");
+    return lti_scores(read_registry(read_ledger(school_.places())), identities, english_text)
+        .at(0)
+        .at("score");
   }
   School school_{*shared_};
   std::uint64_t entry_ = 0;
@@ -62,10 +69,13 @@ TEST_F(LeftToAPerson, WaitsAndGoesOutAsHeDecides) {
   EXPECT_EQ(waits.results.size(), 0u);
   EXPECT_EQ(waits.to_decide, 1u);
 
-  enter_decision(ledger, entry_, {grading::Verdict::fail, "Dr. Examiner", "the floor is cut through at the distal canal"});
+  enter_decision(
+      ledger, entry_,
+      {grading::Verdict::fail, "Dr. Examiner", "the floor is cut through at the distal canal"});
   const FiledSession s = session();
   EXPECT_EQ(s.result->at("verdict"), "fail");
-  EXPECT_EQ(s.result->at("decision"), (json{{"verdict_before", "review"}, {"person", "Dr. Examiner"}}));
+  EXPECT_EQ(s.result->at("decision"),
+            (json{{"verdict_before", "review"}, {"person", "Dr. Examiner"}}));
   EXPECT_EQ(s.result->at("score"), s.filed->at("score")) << "a decision changes no points";
   EXPECT_EQ(s.regrade(s.result_seq)->person, "Dr. Examiner");
   EXPECT_TRUE(review_queue(read_registry(ledger.content())).empty());
@@ -73,18 +83,21 @@ TEST_F(LeftToAPerson, WaitsAndGoesOutAsHeDecides) {
   EXPECT_EQ(release_results(ledger, {.all = true}).results.size(), 1u);
   const std::string csv = moodle();
   EXPECT_NE(csv.find("the floor is cut through at the distal canal"), std::string::npos) << csv;
-  EXPECT_NE(csv.find("\n4711,0,fail"), std::string::npos) << "points that would pass do not count: " << csv;
+  EXPECT_NE(csv.find("\n4711,0,fail"), std::string::npos)
+      << "points that would pass do not count: " << csv;
   EXPECT_TRUE(read_ledger(school_.places()).findings.empty());
 }
 
 TEST_F(LeftToAPerson, IsDecidedOnceAndOnlyWhereThereIsSomethingToDecide) {
   Ledger ledger = school_.ledger();
-  const auto refused = [&](const Decision& d) { return thrown_by([&] { enter_decision(ledger, entry_, d); }); };
+  const auto refused = [&](const Decision& d) {
+    return thrown_by([&] { enter_decision(ledger, entry_, d); });
+  };
   EXPECT_TRUE(refused({grading::Verdict::review, "Dr. Examiner", "x"}));
   EXPECT_TRUE(tells(refused({grading::Verdict::pass, "", "x"}), "--person"));
   EXPECT_TRUE(refused({grading::Verdict::pass, "Dr. Examiner", "two\nlines"}));
-  EXPECT_TRUE(
-      tells(refused({grading::Verdict::pass, std::string(k_longest_person + 1, 'x'), "x"}), Value(static_cast<std::int64_t>(k_longest_person))));
+  EXPECT_TRUE(tells(refused({grading::Verdict::pass, std::string(k_longest_person + 1, 'x'), "x"}),
+                    Value(static_cast<std::int64_t>(k_longest_person))));
   enter_decision(ledger, entry_, {grading::Verdict::pass, "Dr. Examiner", "looked at the tooth"});
   const auto twice = refused({grading::Verdict::fail, "Dr. Other", "x"});
   EXPECT_EQ(code_of(twice), LedgerError::twice);
@@ -92,7 +105,8 @@ TEST_F(LeftToAPerson, IsDecidedOnceAndOnlyWhereThereIsSomethingToDecide) {
   json again = *session().filed;
   again["verdict"] = "pass";
   enter_regrade(ledger, entry_, again, {}, "marked anew");
-  EXPECT_EQ(code_of(refused({grading::Verdict::fail, "Dr. Other", "x"})), LedgerError::not_now) << "the program leaves nothing to a person";
+  EXPECT_EQ(code_of(refused({grading::Verdict::fail, "Dr. Other", "x"})), LedgerError::not_now)
+      << "the program leaves nothing to a person";
   EXPECT_THROW(enter_decision(ledger, 999, {grading::Verdict::pass, "x", "x"}), Error);
 }
 
@@ -100,11 +114,13 @@ TEST_F(LeftToAPerson, GoesOutUndecidedWhereThatIsAskedFor) {
   Ledger ledger = school_.ledger();
   EXPECT_EQ(release_results(ledger, {.sessions = {entry_}}).to_decide, 1u);
   EXPECT_EQ(release_results(ledger, {.all = true, .undecided = true}).results.size(), 1u);
-  EXPECT_NE(moodle().find(",,review,"), std::string::npos) << "no grade: a gradebook would count it as the final one";
+  EXPECT_NE(moodle().find(",,review,"), std::string::npos)
+      << "no grade: a gradebook would count it as the final one";
   EXPECT_EQ(lti()["gradingProgress"], "PendingManual");
   EXPECT_FALSE(lti().contains("scoreGiven"));
   enter_decision(ledger, entry_, {grading::Verdict::pass, "Dr. Examiner", "looked at the tooth"});
-  EXPECT_NE(moodle().find(",review,"), std::string::npos) << "the old one stands until the new one is released";
+  EXPECT_NE(moodle().find(",review,"), std::string::npos)
+      << "the old one stands until the new one is released";
   release_results(ledger, {.all = true});
   EXPECT_NE(moodle().find(",pass,"), std::string::npos);
   EXPECT_EQ(lti()["gradingProgress"], "FullyGraded");
@@ -114,7 +130,8 @@ TEST_F(LeftToAPerson, GoesOutUndecidedWhereThatIsAskedFor) {
 TEST_F(LeftToAPerson, ItsDecisionIsErasedWithItsResults) {
   Ledger ledger = school_.ledger();
   enter_decision(ledger, entry_, {grading::Verdict::pass, "Dr. Examiner", "looked at the tooth"});
-  EXPECT_EQ(erase(ledger, {.sessions = {entry_}, .results = true}, "asked for").size(), 3u) << "mark, regrade, decision";
+  EXPECT_EQ(erase(ledger, {.sessions = {entry_}, .results = true}, "asked for").size(), 3u)
+      << "mark, regrade, decision";
   EXPECT_TRUE(session().result->is_null());
   EXPECT_TRUE(review_queue(read_registry(ledger.content())).empty());
 }
@@ -122,16 +139,22 @@ TEST_F(LeftToAPerson, ItsDecisionIsErasedWithItsResults) {
 TEST_F(LeftToAPerson, AnAppealIsAnsweredOnceAndLetsAPersonDecide) {
   Ledger ledger = school_.ledger();
   enter_decision(ledger, entry_, {grading::Verdict::fail, "Dr. One", "the floor"});
-  const auto again = [&] { enter_decision(ledger, entry_, {grading::Verdict::pass, "Dr. Two", "the probe slipped"}); };
+  const auto again = [&] {
+    enter_decision(ledger, entry_, {grading::Verdict::pass, "Dr. Two", "the probe slipped"});
+  };
   EXPECT_TRUE(tells(thrown_by(again), "Dr. One"));
-  EXPECT_EQ(code_of([&] { answer_appeal(ledger, entry_, Outcome::stands, "no"); }), LedgerError::unknown);
+  EXPECT_EQ(code_of([&] { answer_appeal(ledger, entry_, Outcome::stands, "no"); }),
+            LedgerError::unknown);
   open_appeal(ledger, entry_, "the floor was probed twice");
   EXPECT_EQ(code_of([&] { open_appeal(ledger, entry_, "again"); }), LedgerError::twice);
-  EXPECT_EQ(code_of([&] { answer_appeal(ledger, entry_, Outcome::changed, "yes"); }), LedgerError::not_now);
+  EXPECT_EQ(code_of([&] { answer_appeal(ledger, entry_, Outcome::changed, "yes"); }),
+            LedgerError::not_now);
   enter_regrade(ledger, entry_, *session().result, {}, "measured once more, and the same came out");
-  EXPECT_EQ(code_of([&] { answer_appeal(ledger, entry_, Outcome::changed, "yes"); }), LedgerError::not_now);
+  EXPECT_EQ(code_of([&] { answer_appeal(ledger, entry_, Outcome::changed, "yes"); }),
+            LedgerError::not_now);
   EXPECT_FALSE(thrown_by(again));
-  EXPECT_EQ(code_of([&] { answer_appeal(ledger, entry_, Outcome::stands, "no"); }), LedgerError::another_state)
+  EXPECT_EQ(code_of([&] { answer_appeal(ledger, entry_, Outcome::stands, "no"); }),
+            LedgerError::another_state)
       << "its trail would say that it stands, and the next release would give out another verdict";
   answer_appeal(ledger, entry_, Outcome::changed, "a second examiner measured");
   EXPECT_TRUE(tells(thrown_by(again), "Dr. Two")) << "the appeal is answered";
@@ -161,7 +184,7 @@ TEST_F(LeftToAPerson, WhatIsTakenBackStandsInNoExportUntilItIsReleasedAgain) {
   EXPECT_EQ(session().retracted_why, "the wrong tooth was mounted");
   const Release all = release_results(ledger, {.all = true});
   EXPECT_TRUE(all.results.empty()) << "nobody releases it without knowing";
-  EXPECT_EQ(all.kept_back, 1u);
+  EXPECT_EQ(all.withheld, 1u);
   EXPECT_EQ(moodle().find("4711,"), std::string::npos);
   EXPECT_EQ(release_results(ledger, {.sessions = {entry_}}).results.size(), 1u) << "by name";
   EXPECT_NE(moodle().find("4711,"), std::string::npos);

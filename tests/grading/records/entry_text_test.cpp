@@ -1,4 +1,5 @@
-// Each kind of entry is written and read by one pair of functions: what was written is read back, and what is no entry is refused.
+// Each kind of entry is written and read by one pair of functions: what was written is read back,
+// and what is no entry is refused.
 #include "grading/records/entry_text.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +16,9 @@ using nlohmann::json;
 /// One entry of each kind, with as little as it can have.
 std::vector<LedgerEntry> one_of_each() {
   std::vector<LedgerEntry> out(std::variant_size_v<Entry>);
-  [&]<std::size_t... I>(std::index_sequence<I...>) { (out[I].what.emplace(std::in_place_index<I>), ...); }
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (out[I].what.emplace(std::in_place_index<I>), ...);
+  }
   (std::make_index_sequence<std::variant_size_v<Entry>>());
   for (auto& e : out)
     for (const auto& [part, opening] : openings_of(*e.what)) *opening = make_opening(word_of(part));
@@ -33,7 +36,8 @@ TEST(EntryText, OfEachKindIsReadBackUnderANameOfItsOwn) {
     EXPECT_EQ(entry_text(read), text);
     EXPECT_EQ(read.what->index(), e.what->index());
     EXPECT_EQ(read.by.reason, "looked at it");
-    for (const auto& [part, opening] : openings_of(*read.what)) EXPECT_EQ(opening->sha256, openings_of(*e.what).at(part)->sha256);
+    for (const auto& [part, opening] : openings_of(*read.what))
+      EXPECT_EQ(opening->sha256, openings_of(*e.what).at(part)->sha256);
     EXPECT_TRUE(kinds.insert(kind_name(*e.what)).second) << text;
   }
 }
@@ -44,15 +48,18 @@ TEST(EntryText, ThatLacksAMemberOrHasAnotherOrAnotherTypeIsRefused) {
     const auto refused = [&](const char* how, const auto& change) {
       json spoilt = whole;
       change(spoilt);
-      EXPECT_THROW(static_cast<void>(read_entry(spoilt.dump(), "entry")), Error) << how << ": " << spoilt;
+      EXPECT_THROW(static_cast<void>(read_entry(spoilt.dump(), "entry")), Error)
+          << how << ": " << spoilt;
     };
     refused("one more", [](json& j) { j["body"]["more"] = 1; });
     refused("no time", [](json& j) { j.erase("utc_ns"); });
     refused("another kind", [](json& j) { j["kind"] = "pardon"; });
     refused("a fraction", [](json& j) { j["seq"] = 1.5; });
     refused("no text", [](json& j) { j["body"]["reason"] = 7; });
-    if (e.as<InitEntry>() != nullptr) refused("too long", [](json& j) { j["body"]["reason"] = std::string((1U << 20) + 1, 'x'); });
-    refused("an opening more", [](json& j) { j["body"]["opens"]["motion"] = std::string(64, 'a'); });
+    if (e.as<InitEntry>() != nullptr)
+      refused("too long", [](json& j) { j["body"]["reason"] = std::string((1U << 20) + 1, 'x'); });
+    refused("an opening more",
+            [](json& j) { j["body"]["opens"]["motion"] = std::string(64, 'a'); });
     for (const auto& [name, value] : whole["body"].items()) {
       refused("without", [&, n = name](json& j) { j["body"].erase(n); });
       refused("null", [&, n = name](json& j) { j["body"][n] = nullptr; });

@@ -1,4 +1,5 @@
-// What happens on an exam day, as entries: they say what they should, contradict nothing, and a recording's standing clock must be explained by them.
+// What happens on an exam day, as entries: they say what they should, contradict nothing, and a
+// recording's standing clock must be explained by them.
 #include "grading/records/exam_day.h"
 
 #include "grading/records/erasure.h"
@@ -18,7 +19,8 @@ TEST(ExamDay, AHoldLastsForItsAudienceUntilItsEndAndEndsOnce) {
   const std::string seat = to_hex(load_station_key(station_key_path()).public_key);
   const auto hold = hold_exams(ledger, "fire alarm", {}).seq;
   EXPECT_EQ(ledger.registry().day.hold_of(seat)->seq, hold);
-  EXPECT_EQ(ledger.registry().day.hold_of("any other")->seq, hold) << "for all means also those to come";
+  EXPECT_EQ(ledger.registry().day.hold_of("any other")->seq, hold)
+      << "for all means also those to come";
   const auto end = let_go_on(ledger, hold, "all clear").seq;
   EXPECT_EQ(ledger.registry().day.hold_of(seat), nullptr);
   EXPECT_EQ(ledger.registry().day.holds.at(0).ended_by, end);
@@ -41,7 +43,8 @@ TEST(ExamDay, WhatIsNoLineNoStationOrNobodysCandidateIsRefusedAndEntersNothing) 
   EXPECT_THROW(announce(ledger, "two\nlines", {}), Error);
   EXPECT_THROW(announce(ledger, std::string(k_longest_words + 1, 'x'), {}), Error);
   EXPECT_THROW(announce(ledger, "words", {"", {std::string(64, 'a')}}), Error) << "no such station";
-  EXPECT_THROW(announce(ledger, "words", {"Room 9", {}}), Error) << "a room without stations is not everybody";
+  EXPECT_THROW(announce(ledger, "words", {"Room 9", {}}), Error)
+      << "a room without stations is not everybody";
   EXPECT_THROW(hold_exams(ledger, "", {}), Error);
   EXPECT_THROW(note_incident(ledger, "", "C-ABCD-EFGH", "fell ill"), Error) << "no such candidate";
   EXPECT_THROW(note_incident(ledger, "", "4711", "fell ill"), Error) << "a number is no pseudonym";
@@ -54,17 +57,21 @@ TEST(ExamDay, WhatIsNoLineNoStationOrNobodysCandidateIsRefusedAndEntersNothing) 
 
 TEST(ExamDay, WhatWasSaidOfACandidateGoesWhenHeIsForgotten) {
   const School school;
-  const std::string candidate = parse_ticket(school.ticket("4711"), "", "ticket").candidate, words = "left the room unwell";
+  const std::string candidate = parse_ticket(school.ticket("4711"), "", "ticket").candidate,
+                    words = "left the room unwell";
   Ledger ledger = school.ledger();
-  const auto about = note_incident(ledger, "", candidate, words).seq, other = note_incident(ledger, "", "", "a lamp failed").seq;
+  const auto about = note_incident(ledger, "", candidate, words).seq,
+             other = note_incident(ledger, "", "", "a lamp failed").seq;
   EXPECT_EQ(ledger.registry().day.incidents.at(0).words, words);
-  EXPECT_EQ(ledger.content().entries.at(about).text.find(words), std::string::npos) << "an entry's own text cannot be erased";
+  EXPECT_EQ(ledger.content().entries.at(about).text.find(words), std::string::npos)
+      << "an entry's own text cannot be erased";
   forget(ledger, {candidate}, {});
   EXPECT_EQ(ledger.registry().day.incidents.at(0).words, "");
   EXPECT_TRUE(ledger.registry().day.incidents.at(0).erased_by);
   EXPECT_EQ(ledger.registry().day.incidents.at(1).words, "a lamp failed");
   EXPECT_EQ(ledger.registry().day.incidents.at(1).seq, other);
-  EXPECT_EQ(read_text_file(school.places().database()).find(words), std::string::npos) << "not in the file either";
+  EXPECT_EQ(read_text_file(school.places().database()).find(words), std::string::npos)
+      << "not in the file either";
   const LedgerContent content = read_ledger(school.places());
   EXPECT_TRUE(content.findings.empty());
   EXPECT_TRUE(read_registry(content).findings.empty());
@@ -101,7 +108,8 @@ TEST(ExamDay, AStandingClockIsExplainedByAPauseOfThatStationAndTime) {
   EXPECT_EQ(findings("another", 1001, 1602), 1u);
   EXPECT_EQ(findings("seat", 1001, 1700), 1u) << "longer than the pause was";
   EXPECT_EQ(findings("seat", 3000, 3100), 1u) << "at another time";
-  EXPECT_TRUE(unexplained_holds(day, "another", {}, 0).empty()) << "no recording before this had any";
+  EXPECT_TRUE(unexplained_holds(day, "another", {}, 0).empty())
+      << "no recording before this had any";
 }
 
 TEST(ExamDay, ARecordingWhoseClockStoodStillByItselfIsNotFiledAsSound) {
@@ -122,9 +130,11 @@ TEST(ExamDay, ARecordingWhoseClockStoodStillByItselfIsNotFiledAsSound) {
   const Filing filed = file_session(ledger, second, {}, grounds);
   EXPECT_TRUE(filed.findings.empty()) << filed.findings.front().message();
   ASSERT_TRUE(filed.seq);
-  const nlohmann::json& result = *ledger.content().entries.at(*filed.seq).as<SessionEntry>()->result.value;
+  const nlohmann::json& result =
+      *ledger.content().entries.at(*filed.seq).as<SessionEntry>()->result.value;
   EXPECT_EQ(result.at("pauses").at("ticks"), 50);
-  EXPECT_EQ(result.at("pauses").at("list").at(0), (nlohmann::json{{"from_tick", 50}, {"to_tick", 100}, {"by_office", true}}));
+  EXPECT_EQ(result.at("pauses").at("list").at(0),
+            (nlohmann::json{{"from_tick", 50}, {"to_tick", 100}, {"by_office", true}}));
 }
 
 }  // namespace

@@ -45,7 +45,8 @@ void lose_what_was_not_synced() {
     if (g_state->random.below(2) == 0) continue;
     const int fd = ::open(u->path.c_str(), O_WRONLY);
     if (fd < 0) continue;
-    if (!u->before.empty() && ::pwrite(fd, u->before.data(), u->before.size(), u->offset) < 0) std::abort();
+    if (!u->before.empty() && ::pwrite(fd, u->before.data(), u->before.size(), u->offset) < 0)
+      std::abort();
     if (u == g_state->undo.rend() - 1 && ::ftruncate(fd, u->size_before) != 0) std::abort();
     ::close(fd);
   }
@@ -61,7 +62,9 @@ bool fails() {
   if (g_state->fault == InjectedFault::power_cut) lose_what_was_not_synced();
   return true;
 }
-bool dark() { return g_state != nullptr && g_state->happened && g_state->fault == InjectedFault::power_cut; }
+bool dark() {
+  return g_state != nullptr && g_state->happened && g_state->fault == InjectedFault::power_cut;
+}
 
 void remember(sqlite3_file* f, sqlite3_int64 offset, int bytes) {
   if (g_state == nullptr) return;
@@ -71,7 +74,9 @@ void remember(sqlite3_file* f, sqlite3_int64 offset, int bytes) {
   real_of(f)->pMethods->xFileSize(real_of(f), &u.size_before);
   const auto there = std::clamp<sqlite3_int64>(u.size_before - offset, 0, bytes);
   u.before.resize(static_cast<std::size_t>(there));
-  if (there > 0 && real_of(f)->pMethods->xRead(real_of(f), u.before.data(), static_cast<int>(there), offset) != SQLITE_OK) u.before.clear();
+  if (there > 0 && real_of(f)->pMethods->xRead(real_of(f), u.before.data(), static_cast<int>(there),
+                                               offset) != SQLITE_OK)
+    u.before.clear();
   g_state->undo.push_back(std::move(u));
 }
 
@@ -93,33 +98,47 @@ int x_truncate(sqlite3_file* f, sqlite3_int64 size) {
 }
 int x_sync(sqlite3_file* f, int flags) {
   if (fails()) return SQLITE_IOERR_FSYNC;
-  if (g_state != nullptr) std::erase_if(g_state->undo, [&](const Undo& u) { return u.path == file_of(f)->path; });
+  if (g_state != nullptr)
+    std::erase_if(g_state->undo, [&](const Undo& u) { return u.path == file_of(f)->path; });
   return real_of(f)->pMethods->xSync(real_of(f), flags);
 }
-int x_file_size(sqlite3_file* f, sqlite3_int64* size) { return real_of(f)->pMethods->xFileSize(real_of(f), size); }
+int x_file_size(sqlite3_file* f, sqlite3_int64* size) {
+  return real_of(f)->pMethods->xFileSize(real_of(f), size);
+}
 int x_lock(sqlite3_file* f, int l) { return real_of(f)->pMethods->xLock(real_of(f), l); }
 int x_unlock(sqlite3_file* f, int l) { return real_of(f)->pMethods->xUnlock(real_of(f), l); }
-int x_check(sqlite3_file* f, int* out) { return real_of(f)->pMethods->xCheckReservedLock(real_of(f), out); }
-int x_control(sqlite3_file* f, int op, void* arg) { return real_of(f)->pMethods->xFileControl(real_of(f), op, arg); }
+int x_check(sqlite3_file* f, int* out) {
+  return real_of(f)->pMethods->xCheckReservedLock(real_of(f), out);
+}
+int x_control(sqlite3_file* f, int op, void* arg) {
+  return real_of(f)->pMethods->xFileControl(real_of(f), op, arg);
+}
 int x_sector(sqlite3_file* f) { return real_of(f)->pMethods->xSectorSize(real_of(f)); }
 int x_device(sqlite3_file* f) { return real_of(f)->pMethods->xDeviceCharacteristics(real_of(f)); }
 int x_shm_map(sqlite3_file* f, int page, int size, int extend, void volatile** out) {
   return real_of(f)->pMethods->xShmMap(real_of(f), page, size, extend, out);
 }
-int x_shm_lock(sqlite3_file* f, int offset, int n, int flags) { return real_of(f)->pMethods->xShmLock(real_of(f), offset, n, flags); }
+int x_shm_lock(sqlite3_file* f, int offset, int n, int flags) {
+  return real_of(f)->pMethods->xShmLock(real_of(f), offset, n, flags);
+}
 void x_shm_barrier(sqlite3_file* f) { real_of(f)->pMethods->xShmBarrier(real_of(f)); }
-int x_shm_unmap(sqlite3_file* f, int remove) { return real_of(f)->pMethods->xShmUnmap(real_of(f), remove); }
+int x_shm_unmap(sqlite3_file* f, int remove) {
+  return real_of(f)->pMethods->xShmUnmap(real_of(f), remove);
+}
 
 int x_open(sqlite3_vfs* /*vfs*/, const char* name, sqlite3_file* out, int flags, int* out_flags) {
   File* f = file_of(out);
   f->real = reinterpret_cast<sqlite3_file*>(f + 1);
   std::memset(f->path, 0, sizeof f->path);
   if (name != nullptr) std::strncpy(f->path, name, sizeof f->path - 1);
-  const int code = dark() ? SQLITE_CANTOPEN : g_disk->xOpen(g_disk, name, f->real, flags, out_flags);
+  const int code =
+      dark() ? SQLITE_CANTOPEN : g_disk->xOpen(g_disk, name, f->real, flags, out_flags);
   f->base.pMethods = code == SQLITE_OK ? &g_methods : nullptr;
   return code;
 }
-int x_delete(sqlite3_vfs* /*vfs*/, const char* name, int sync) { return fails() ? SQLITE_IOERR_DELETE : g_disk->xDelete(g_disk, name, sync); }
+int x_delete(sqlite3_vfs* /*vfs*/, const char* name, int sync) {
+  return fails() ? SQLITE_IOERR_DELETE : g_disk->xDelete(g_disk, name, sync);
+}
 
 void set_up() {
   if (g_disk != nullptr) return;
@@ -130,8 +149,9 @@ void set_up() {
   g_shim.szOsFile = static_cast<int>(sizeof(File)) + g_disk->szOsFile;
   g_shim.xOpen = x_open;
   g_shim.xDelete = x_delete;
-  g_methods = {2,         x_close,  x_read,   x_write,   x_truncate, x_sync,        x_file_size, x_lock,  x_unlock, x_check,
-               x_control, x_sector, x_device, x_shm_map, x_shm_lock, x_shm_barrier, x_shm_unmap, nullptr, nullptr};
+  g_methods = {2,          x_close,       x_read,      x_write,   x_truncate, x_sync,   x_file_size,
+               x_lock,     x_unlock,      x_check,     x_control, x_sector,   x_device, x_shm_map,
+               x_shm_lock, x_shm_barrier, x_shm_unmap, nullptr,   nullptr};
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
-// SQLite on a disk that fails: at the n-th change to a file it refuses once (a full disk), or the power goes, and what was written since the last
-// sync is on disk only in part, drawn at random. Between, it is the ordinary disk.
+// SQLite on a disk that fails: at the n-th change to a file it refuses once (a full disk), or the
+// power goes, and what was written since the last sync is on disk only in part, drawn at random.
+// Between, it is the ordinary disk.
 #pragma once
 
 #include <cstdint>

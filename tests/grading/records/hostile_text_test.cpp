@@ -1,4 +1,5 @@
-// Results whose every text was written by somebody who wants rows, formulas or commands in what the school exports of them.
+// Results whose every text was written by somebody who wants rows, formulas or commands in what the
+// school exports of them.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -31,7 +32,8 @@ const char* const k_hostile[] = {"=cmd|' /C calc'!A0",
 /// A result with `text` wherever a result holds text.
 json result_of(const std::string& text) {
   return {{"verdict", "pass"},
-          {"score", {{"points", 80.0}, {"max", 100.0}, {"pass_percent", 60.0}, {"borderline_percent", 5.0}}},
+          {"score",
+           {{"points", 80.0}, {"max", 100.0}, {"pass_percent", 60.0}, {"borderline_percent", 5.0}}},
           {"criteria",
            {{{"id", text},
              {"metric", text},
@@ -59,9 +61,13 @@ Registry registry_of(const std::string& text, const std::string& candidate) {
 }
 
 void expect_harmless(const std::string& csv, std::size_t rows, const std::string& text) {
-  for (const auto& line : {csv}) EXPECT_EQ(static_cast<std::size_t>(std::count(line.begin(), line.end(), '\n')), rows) << text << "\n" << csv;
+  for (const auto& line : {csv})
+    EXPECT_EQ(static_cast<std::size_t>(std::count(line.begin(), line.end(), '\n')), rows)
+        << text << "\n"
+        << csv;
   EXPECT_EQ(csv.find_first_of("\r\x1b\x07\t"), std::string::npos) << csv;
-  const auto table = parse_csv(csv, "export.csv");  // refuses rows of another length, and control characters
+  const auto table =
+      parse_csv(csv, "export.csv");  // refuses rows of another length, and control characters
   ASSERT_EQ(table.size(), rows) << csv;
   for (const auto& row : table)
     for (const auto& field : row.fields) {
@@ -71,7 +77,8 @@ void expect_harmless(const std::string& csv, std::size_t rows, const std::string
       } catch (const std::exception&) {
       }
       if (!field.empty() && end == field.size()) continue;  // a number
-      EXPECT_EQ(field.find_first_of("=+-@"), field.find_first_of("=+-@", 1)) << "a formula: " << field;
+      EXPECT_EQ(field.find_first_of("=+-@"), field.find_first_of("=+-@", 1))
+          << "a formula: " << field;
     }
 }
 

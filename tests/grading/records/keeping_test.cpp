@@ -1,5 +1,5 @@
-// What a school keeps about people: pseudonyms that lead nowhere, accommodations that the ledger never holds, and recordings and results that can be
-// erased while every proof stays valid.
+// What a school keeps about people: pseudonyms that lead nowhere, accommodations that the ledger
+// never holds, and recordings and results that can be erased while every proof stays valid.
 #include <gtest/gtest.h>
 
 #include "engine/base/json_fields.h"
@@ -19,12 +19,14 @@ using namespace testing_ledger;
 using nlohmann::json;
 using testing_basics::code_of;
 
-/// The first file below the folder, logs and backups included, in which the text stands; empty for none.
+/// The first file below the folder, logs and backups included, in which the text stands; empty for
+/// none.
 std::string where_it_stands(const std::string& folder, const std::string& text) {
   for (const auto& f : std::filesystem::recursive_directory_iterator(folder)) {
     if (!f.is_regular_file()) continue;
     const Bytes bytes = read_file(f.path().string());
-    if (std::string(bytes.begin(), bytes.end()).find(text) != std::string::npos) return f.path().string();
+    if (std::string(bytes.begin(), bytes.end()).find(text) != std::string::npos)
+      return f.path().string();
   }
   return "";
 }
@@ -34,9 +36,12 @@ class Kept : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     shared_ = new School();
-    const std::string ticket = shared_->ticket("Matr-4711", [](Ticket& t) { t.grant = {{"accommodation.extra_time_percent", "37"}}; });
-    const std::string path =
-        shared_->sit(ticket, "expert", [](scenarios::ExamOptions& o) { o.notes.emplace_back("accommodation.extra_time_percent", "37"); });
+    const std::string ticket = shared_->ticket("Matr-4711", [](Ticket& t) {
+      t.grant = {{"accommodation.extra_time_percent", "37"}};
+    });
+    const std::string path = shared_->sit(ticket, "expert", [](scenarios::ExamOptions& o) {
+      o.notes.emplace_back("accommodation.extra_time_percent", "37");
+    });
     Ledger ledger = shared_->ledger();
     const Filing filing = file_session(ledger, path);
     for (const auto& f : filing.findings) ADD_FAILURE() << f.message();
@@ -46,7 +51,9 @@ class Kept : public testing::Test {
   static void TearDownTestSuite() { delete shared_; }
 
   [[nodiscard]] LedgerContent content() const { return read_ledger(school_.places()); }
-  [[nodiscard]] std::string recording() const { return school_.places().session(content().entries.at(session_).as<SessionEntry>()->file_sha256); }
+  [[nodiscard]] std::string recording() const {
+    return school_.places().session(content().entries.at(session_).as<SessionEntry>()->file_sha256);
+  }
   /// Everything that proves: entries, tree, signatures, witness, a receipt from before.
   void expect_proofs_hold(const json& receipt) {
     const LedgerCheck check = check_ledger(school_.places(), true);
@@ -62,7 +69,8 @@ class Kept : public testing::Test {
 
 TEST_F(Kept, AccommodationsStandInTheRecordingAloneAndNeverInTheLedger) {
   const Bytes db = read_file(school_.places().database());
-  for (const auto& e : content().entries) EXPECT_EQ(e.text.find("extra_time"), std::string::npos) << e.text;
+  for (const auto& e : content().entries)
+    EXPECT_EQ(e.text.find("extra_time"), std::string::npos) << e.text;
   EXPECT_EQ(SessionReader(recording()).setup().notes.size(), 2u) << "ticket and accommodation";
   // hidden: the same grant twice has two commitments, so nobody can try values
   const std::string a = school_.ticket("a"), b = school_.ticket("b");
@@ -74,7 +82,8 @@ TEST_F(Kept, AccommodationsStandInTheRecordingAloneAndNeverInTheLedger) {
 }
 
 TEST_F(Kept, WhoIsForgottenAndComesBackWithAnOldFileIsNamedAndRemoved) {
-  const std::string names = school_.places().identities(), candidate = content().entries.at(session_).as<SessionEntry>()->candidate;
+  const std::string names = school_.places().identities(),
+                    candidate = content().entries.at(session_).as<SessionEntry>()->candidate;
   const Bytes old = read_file(names);
   Ledger ledger = school_.ledger();
   forget(ledger, {candidate}, {});
@@ -92,7 +101,8 @@ TEST_F(Kept, WhoIsForgottenAndComesBackWithAnOldFileIsNamedAndRemoved) {
 }
 
 TEST_F(Kept, WhoIsTakenOutOfTheIdentitiesWithoutAnEntryIsNamed) {
-  const std::string names = school_.places().identities(), candidate = content().entries.at(session_).as<SessionEntry>()->candidate;
+  const std::string names = school_.places().identities(),
+                    candidate = content().entries.at(session_).as<SessionEntry>()->candidate;
   const auto findings = [&] {
     LedgerCheck check = check_ledger(school_.places(), false);
     check_owner(check, school_.places(), content(), school_key_path(), school_public_key_path());
@@ -108,7 +118,8 @@ TEST_F(Kept, WhoIsTakenOutOfTheIdentitiesWithoutAnEntryIsNamed) {
 }
 
 TEST_F(Kept, ABackupThatIsBroughtUpToDateWithoutIdentitiesForgetsInThoseThatItHas) {
-  const std::string candidate = content().entries.at(session_).as<SessionEntry>()->candidate, backup = school_.file("backup");
+  const std::string candidate = content().entries.at(session_).as<SessionEntry>()->candidate,
+                    backup = school_.file("backup");
   static_cast<void>(back_up(school_.places(), backup, true));
   Ledger ledger = school_.ledger();
   forget(ledger, {candidate}, {});
@@ -119,7 +130,8 @@ TEST_F(Kept, ABackupThatIsBroughtUpToDateWithoutIdentitiesForgetsInThoseThatItHa
 }
 
 TEST_F(Kept, ForgettingCancelsTicketsThatWereNotUsed) {
-  const std::string ticket = school_.ticket("Matr-4711"), candidate = parse_ticket(ticket, "", "ticket").candidate;
+  const std::string ticket = school_.ticket("Matr-4711"),
+                    candidate = parse_ticket(ticket, "", "ticket").candidate;
   const std::string sat = school_.sit(ticket);
   Ledger ledger = school_.ledger();
   forget(ledger, {candidate}, {});
@@ -134,13 +146,16 @@ TEST_F(Kept, AnErasedResultIsNotReleased) {
   Ledger ledger = school_.ledger();
   erase(ledger, {.sessions = {session_}, .results = true}, "asked for");
   EXPECT_TRUE(release_results(ledger, {.all = true}).results.empty());
-  EXPECT_EQ(code_of([&] { static_cast<void>(release_results(ledger, {.sessions = {session_}})); }), LedgerError::erased);
+  EXPECT_EQ(code_of([&] { static_cast<void>(release_results(ledger, {.sessions = {session_}})); }),
+            LedgerError::erased);
   // a ledger that stays open has learnt of it, too
   EXPECT_TRUE(ledger.registry().sessions.at(0).result_erased_by);
 }
 
 TEST_F(Kept, NobodysNumberMayLookLikeAPseudonym) {
-  EXPECT_THROW(Identities(school_.places().identities()).enrol("C-5QVG-0G6P-B89Z", "", "exam", School::key()), Error);
+  EXPECT_THROW(Identities(school_.places().identities())
+                   .enrol("C-5QVG-0G6P-B89Z", "", "exam", School::key()),
+               Error);
 }
 
 TEST_F(Kept, ErasedMotionIsGoneAndEveryProofHolds) {
@@ -148,7 +163,8 @@ TEST_F(Kept, ErasedMotionIsGoneAndEveryProofHolds) {
   const json receipt = ledger.receipt(session_);
   const std::string path = recording();
   ASSERT_TRUE(std::filesystem::exists(path));
-  EXPECT_EQ(erase(ledger, {.sessions = {session_}, .motion = true}, "five years are over").size(), 1u);
+  EXPECT_EQ(erase(ledger, {.sessions = {session_}, .motion = true}, "five years are over").size(),
+            1u);
   EXPECT_FALSE(std::filesystem::exists(path));
   expect_proofs_hold(receipt);
   expect_finding(check_ledger(school_.places(), true).not_checked, Kind::not_simulated, {"1"});
@@ -156,7 +172,8 @@ TEST_F(Kept, ErasedMotionIsGoneAndEveryProofHolds) {
   EXPECT_EQ(s.motion_erased_by, content().entries.size() - 1);
   EXPECT_TRUE(s.result->is_object()) << "the result is kept";
   EXPECT_THROW(static_cast<void>(recording_of(school_.places(), s)), Error);
-  EXPECT_TRUE(erase(ledger, {.sessions = {session_}, .motion = true}, "again").empty()) << "nothing is left";
+  EXPECT_TRUE(erase(ledger, {.sessions = {session_}, .motion = true}, "again").empty())
+      << "nothing is left";
 }
 
 TEST_F(Kept, AnErasedResultIsNowhereAndEveryProofHolds) {
@@ -168,16 +185,22 @@ TEST_F(Kept, AnErasedResultIsNowhereAndEveryProofHolds) {
   RegradeBasis basis;
   basis.rubric_toml = "x";
   enter_regrade(ledger, session_, *before.result, basis, "an appeal");
-  EXPECT_EQ(erase(ledger, {.sessions = {session_}, .motion = true, .results = true}, "asked for").size(), 3u) << "recording, mark, regrade";
+  EXPECT_EQ(
+      erase(ledger, {.sessions = {session_}, .motion = true, .results = true}, "asked for").size(),
+      3u)
+      << "recording, mark, regrade";
   EXPECT_EQ(where_it_stands(school_.file(""), words), "");
-  EXPECT_EQ(where_it_stands(school_.file(""), "extra_time_percent"), "") << "a result tells of accommodations, too";
+  EXPECT_EQ(where_it_stands(school_.file(""), "extra_time_percent"), "")
+      << "a result tells of accommodations, too";
   expect_proofs_hold(receipt);
   const FiledSession s = read_registry(content()).sessions.at(0);
   EXPECT_TRUE(s.result->is_null());
   EXPECT_TRUE(s.result_erased_by);
   Identities identities(school_.places().identities());
   int left_out = 0;
-  EXPECT_EQ(moodle_csv(read_registry(content()), identities, left_out, english_text).find("Matr-4711"), std::string::npos);
+  EXPECT_EQ(
+      moodle_csv(read_registry(content()), identities, left_out, english_text).find("Matr-4711"),
+      std::string::npos);
 }
 
 TEST_F(Kept, WhatIsTakenOutWithoutAnEntryIsFound) {
@@ -185,7 +208,8 @@ TEST_F(Kept, WhatIsTakenOutWithoutAnEntryIsFound) {
   test::tamper(school_.places().database(), "DELETE FROM opening");
   expect_kinds(check_ledger(school_.places(), false).findings, {Kind::part_missing});
   std::filesystem::remove(path);
-  expect_kinds(check_ledger(school_.places(), false).findings, {Kind::part_missing, Kind::file_gone});
+  expect_kinds(check_ledger(school_.places(), false).findings,
+               {Kind::part_missing, Kind::file_gone});
 }
 
 TEST_F(Kept, WhatWasErasedAndComesBackIsFound) {
@@ -193,25 +217,31 @@ TEST_F(Kept, WhatWasErasedAndComesBackIsFound) {
   {
     Database db = Database::open(school_.places().database(), false);
     const std::string text = db.text("SELECT text FROM opening");
-    opening = "INSERT INTO opening VALUES ('" + db.text("SELECT sha256 FROM opening") + "', CAST(x'" + to_hex(ledger_bytes(text)) + "' AS TEXT))";
+    opening = "INSERT INTO opening VALUES ('" + db.text("SELECT sha256 FROM opening") +
+              "', CAST(x'" + to_hex(ledger_bytes(text)) + "' AS TEXT))";
   }
   const std::string path = recording();
   const Bytes image = read_file(path);
   {
     Ledger ledger = school_.ledger();
-    static_cast<void>(erase(ledger, {.sessions = {session_}, .motion = true, .results = true}, "asked for"));
+    static_cast<void>(
+        erase(ledger, {.sessions = {session_}, .motion = true, .results = true}, "asked for"));
   }
   write_file(path, image);
-  expect_finding(check_ledger(school_.places(), false).findings, Kind::erased_still_there, {std::to_string(session_)});
-  EXPECT_EQ(remove_erased_recordings(content(), school_.places()), 1u) << "as after a crash between entry and removal";
+  expect_finding(check_ledger(school_.places(), false).findings, Kind::erased_still_there,
+                 {std::to_string(session_)});
+  EXPECT_EQ(remove_erased_recordings(content(), school_.places()), 1u)
+      << "as after a crash between entry and removal";
   EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
   test::tamper(school_.places().database(), opening);
-  expect_finding(check_ledger(school_.places(), false).findings, Kind::erased_still_there, {std::to_string(session_)});
+  expect_finding(check_ledger(school_.places(), false).findings, Kind::erased_still_there,
+                 {std::to_string(session_)});
 }
 
 TEST_F(Kept, AReaderThatKeepsTheLogInUseIsNamedAndTheLogIsWipedLater) {
   Ledger ledger = school_.ledger();
-  Database reader = Database::open(school_.places().database(), false), writer = Database::open(school_.places().database(), false, k_short_wait);
+  Database reader = Database::open(school_.places().database(), false),
+           writer = Database::open(school_.places().database(), false, k_short_wait);
   reader.run("BEGIN");
   EXPECT_EQ(reader.integer("SELECT count(*) FROM opening"), 1);
   static_cast<void>(school_.ticket("4712"));
@@ -238,7 +268,8 @@ TEST_F(Kept, ForgettingErasesIdentityAndRecordingOfEveryExamAndTellsNobodyWhoItW
   for (const auto& e : content().entries)
     if (e.as<ForgetEntry>() != nullptr) {
       ++forgotten;
-      EXPECT_FALSE(e.text.find(pseudonyms[0]) != std::string::npos && e.text.find(pseudonyms[1]) != std::string::npos)
+      EXPECT_FALSE(e.text.find(pseudonyms[0]) != std::string::npos &&
+                   e.text.find(pseudonyms[1]) != std::string::npos)
           << "no entry says that both are one person's";
     }
   EXPECT_EQ(forgotten, 2u);
@@ -255,11 +286,13 @@ TEST_F(Kept, MotionStaysWhenItIsAskedFor) {
 TEST_F(Kept, ABackupForgetsWhatTheLedgerHasErased) {
   const std::string folder = school_.file("backup");
   static_cast<void>(back_up(school_.places(), folder, false));
-  const std::string copy = LedgerPlaces{folder}.session(content().entries.at(session_).as<SessionEntry>()->file_sha256);
+  const std::string copy =
+      LedgerPaths{folder}.session(content().entries.at(session_).as<SessionEntry>()->file_sha256);
   ASSERT_TRUE(std::filesystem::exists(copy));
   {
     Ledger ledger = school_.ledger();
-    static_cast<void>(erase(ledger, {.sessions = {session_}, .motion = true, .results = true}, "asked for"));
+    static_cast<void>(
+        erase(ledger, {.sessions = {session_}, .motion = true, .results = true}, "asked for"));
   }
   const Backup backup = back_up(school_.places(), folder, false);
   EXPECT_TRUE(backup.missing.empty());
@@ -270,10 +303,18 @@ TEST_F(Kept, ABackupForgetsWhatTheLedgerHasErased) {
 
 TEST_F(Kept, AnEntryErasesOnlyWhatIsThereBeforeIt) {
   Ledger ledger = school_.ledger();
-  EXPECT_THROW(static_cast<void>(erase(ledger, {.sessions = {1}, .motion = true}, "x")), Error) << "no session's entry";
-  EXPECT_THROW(static_cast<void>(erase(ledger, {.sessions = {session_}, .motion = true}, "")), Error) << "no reason";
+  EXPECT_THROW(static_cast<void>(erase(ledger, {.sessions = {1}, .motion = true}, "x")), Error)
+      << "no session's entry";
+  EXPECT_THROW(static_cast<void>(erase(ledger, {.sessions = {session_}, .motion = true}, "")),
+               Error)
+      << "no reason";
   EXPECT_TRUE(std::filesystem::exists(recording()));
-  EXPECT_THROW(ledger.append([](const LedgerContent& now) { return EraseEntry{{{now.entries.size() + 3, Part::motion}}}; }, "forged"), Error);
+  EXPECT_THROW(ledger.append(
+                   [](const LedgerContent& now) {
+                     return EraseEntry{{{now.entries.size() + 3, Part::motion}}};
+                   },
+                   "forged"),
+               Error);
   expect_kinds(content().findings, {Kind::entry_contradicts});
 }
 
@@ -286,7 +327,8 @@ TEST(Pseudonyms, AreDrawnForEachExamAndBoundToTheirRow) {
   EXPECT_EQ(identities.enrol("Matr-4711", "Ada", "exam A", School::key()), a);
   EXPECT_EQ(identities.of_person(a).size(), 2u);
   EXPECT_TRUE(identities.check(School::key()).empty());
-  for (const char* sql : {"UPDATE identity SET exam = 'exam C' WHERE exam = 'exam A'", "UPDATE identity SET name = 'Bob' WHERE exam = 'exam A'",
+  for (const char* sql : {"UPDATE identity SET exam = 'exam C' WHERE exam = 'exam A'",
+                          "UPDATE identity SET name = 'Bob' WHERE exam = 'exam A'",
                           "UPDATE identity SET id = '4712' WHERE exam = 'exam A'"}) {
     const School copy(school);
     test::tamper(copy.places().identities(), sql);
@@ -297,9 +339,10 @@ TEST(Pseudonyms, AreDrawnForEachExamAndBoundToTheirRow) {
 TEST(Pseudonyms, AFileOfThemThatKeepsWhoIsForgottenIsRefused) {
   const School school;
   Identities(school.places().identities()).enrol("Matr-4711", "Ada", "exam", School::key());
-  test::tamper(school.places().identities(),
-               "CREATE TABLE kept (id TEXT); CREATE TRIGGER keep BEFORE DELETE ON identity BEGIN INSERT INTO kept VALUES (OLD.id); END; "
-               "UPDATE identity SET id = id");
+  test::tamper(
+      school.places().identities(),
+      "CREATE TABLE kept (id TEXT); CREATE TRIGGER keep BEFORE DELETE ON identity BEGIN INSERT INTO kept VALUES (OLD.id); END; "
+      "UPDATE identity SET id = id");
   EXPECT_THROW(Identities(school.places().identities()), Error);
 }
 

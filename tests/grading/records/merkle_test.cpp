@@ -20,12 +20,17 @@ const std::vector<Bytes> k_entries = {{},
                                       {0x30, 0x31},
                                       {0x40, 0x41, 0x42, 0x43},
                                       {0x50, 0x51, 0x52, 0x53, 0x54, 0x55, 0x56, 0x57},
-                                      {0x60, 0x61, 0x62, 0x63, 0x64, 0x65, 0x66, 0x67, 0x68, 0x69, 0x6a, 0x6b, 0x6c, 0x6d, 0x6e, 0x6f}};
+                                      {0x60, 0x61, 0x62, 0x63, 0x64, 0x65, 0x66, 0x67, 0x68, 0x69,
+                                       0x6a, 0x6b, 0x6c, 0x6d, 0x6e, 0x6f}};
 const std::vector<std::string> k_roots = {
-    "6e340b9cffb37a989ca544e6bb780a2c78901d3fb33738768511a30617afa01d", "fac54203e7cc696cf0dfcb42c92a1d9dbaf70ad9e621f4bd8d98662f00e3c125",
-    "aeb6bcfe274b70a14fb067a5e5578264db0fa9b51af5e0ba159158f329e06e77", "d37ee418976dd95753c1c73862b9398fa2a2cf9b4ff0fdfe8b30cd95209614b7",
-    "4e3bbb1f7b478dcfe71fb631631519a3bca12c9aefca1612bfce4c13a86264d4", "76e67dadbcdf1e10e1b74ddc608abd2f98dfb16fbce75277b5232a127f2087ef",
-    "ddb89be403809e325750d3d263cd78929c2942b7942a34b77e122c9594a74c8c", "5dc9da79a70659a9ad559cb701ded9a2ab9d823aad2f4960cfe370eff4604328"};
+    "6e340b9cffb37a989ca544e6bb780a2c78901d3fb33738768511a30617afa01d",
+    "fac54203e7cc696cf0dfcb42c92a1d9dbaf70ad9e621f4bd8d98662f00e3c125",
+    "aeb6bcfe274b70a14fb067a5e5578264db0fa9b51af5e0ba159158f329e06e77",
+    "d37ee418976dd95753c1c73862b9398fa2a2cf9b4ff0fdfe8b30cd95209614b7",
+    "4e3bbb1f7b478dcfe71fb631631519a3bca12c9aefca1612bfce4c13a86264d4",
+    "76e67dadbcdf1e10e1b74ddc608abd2f98dfb16fbce75277b5232a127f2087ef",
+    "ddb89be403809e325750d3d263cd78929c2942b7942a34b77e122c9594a74c8c",
+    "5dc9da79a70659a9ad559cb701ded9a2ab9d823aad2f4960cfe370eff4604328"};
 
 std::vector<Sha256> drawn_leaves(std::size_t n, Random& random) {
   std::vector<Sha256> leaves(n);
@@ -37,7 +42,8 @@ std::vector<Sha256> drawn_leaves(std::size_t n, Random& random) {
 std::uint64_t new_seed() { return testing_basics::drawn_seed("Merkle"); }
 
 TEST(Merkle, RootsAreThoseOfTheReference) {
-  EXPECT_EQ(to_hex(merkle_root({})), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(to_hex(merkle_root({})),
+            "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   GrowingRoot growing;
   EXPECT_EQ(growing.root(), merkle_root({}));
   std::vector<Sha256> leaves;
@@ -82,8 +88,10 @@ TEST(Merkle, EveryBeginningIsProvenAndNoOther) {
       EXPECT_TRUE(is_consistent(m, old_root, n, root, proof)) << m << " of " << n;
       auto changed = leaves;
       changed[random.below(m)][0] ^= 1;
-      EXPECT_FALSE(is_consistent(m, merkle_root(std::span(changed).first(m)), n, root, proof)) << "another beginning, " << m << " of " << n;
-      EXPECT_FALSE(is_consistent(m, old_root, n, merkle_root(changed), proof)) << "another end, " << m << " of " << n;
+      EXPECT_FALSE(is_consistent(m, merkle_root(std::span(changed).first(m)), n, root, proof))
+          << "another beginning, " << m << " of " << n;
+      EXPECT_FALSE(is_consistent(m, old_root, n, merkle_root(changed), proof))
+          << "another end, " << m << " of " << n;
       EXPECT_FALSE(is_consistent(n + 1, old_root, n, root, proof));
       proof.push_back(root);
       EXPECT_FALSE(is_consistent(m, old_root, n, root, proof)) << "one hash too many";

@@ -1,4 +1,5 @@
-// Which scores are due for a learning platform's gradebook, by released results and by what was answered before.
+// Which scores are due for a learning platform's gradebook, by released results and by what was
+// answered before.
 #include "grading/records/passback.h"
 
 #include "grading/records/erasure.h"
@@ -12,7 +13,8 @@ namespace {
 using namespace testing_ledger;
 using nlohmann::json;
 
-constexpr char k_column[] = "https://moodle.example/7/lineitems/3", k_issuer[] = "https://moodle.example";
+constexpr char k_column[] = "https://moodle.example/7/lineitems/3",
+               k_issuer[] = "https://moodle.example";
 
 /// One exam of 4711 is filed.
 class Passbacks : public testing::Test {
@@ -24,7 +26,8 @@ class Passbacks : public testing::Test {
   std::vector<ScoreDue> due(const char* column = k_column, bool again = false) {
     Ledger ledger = school_.ledger();
     Identities identities(school_.places().identities());
-    return scores_due(ledger.content(), ledger.registry(), identities, "block_cavity", column, english_text, again);
+    return scores_due(ledger.content(), ledger.registry(), identities, "block_cavity", column,
+                      english_text, again);
   }
   void release() {
     Ledger ledger = school_.ledger();
@@ -81,7 +84,8 @@ TEST_F(Passbacks, WhatIsTakenBackIsClearedByALaterTimeAndOnlyWhereItWasSent) {
   const ScoreDue clears = due()[0];
   EXPECT_EQ(clears.result, 0U);
   EXPECT_FALSE(clears.score.contains("scoreGiven"));
-  EXPECT_GT(clears.score["timestamp"].get<std::string>(), first.score["timestamp"].get<std::string>());
+  EXPECT_GT(clears.score["timestamp"].get<std::string>(),
+            first.score["timestamp"].get<std::string>());
   EXPECT_TRUE(due("https://moodle.example/8/lineitems/1").empty()) << "nothing was sent there";
   answer(clears, 200);
   EXPECT_TRUE(due().empty());

@@ -1,4 +1,5 @@
-// What the office promised and took back: one live ticket for each candidate and exam, tickets that are cancelled, and the ledger's word to begin.
+// What the office promised and took back: one live ticket for each candidate and exam, tickets that
+// are cancelled, and the ledger's word to begin.
 #include <gtest/gtest.h>
 
 #include "grading/records/begin.h"
@@ -41,7 +42,8 @@ TEST_F(Promised, ACandidateHasOneLiveTicketForAnExamUnlessAPersonSaysOtherwise) 
   Ledger ledger = school_.ledger();
   Identities identities(school_.places().identities());
   const std::int64_t now = read_clocks().utc_ns;
-  const Ticket t = promise(*scenarios::prepare_exam(k_scenario, {}), ledger.content(), now - k_hour_ns, now + k_hour_ns);
+  const Ticket t = promise(*scenarios::prepare_exam(k_scenario, {}), ledger.content(),
+                           now - k_hour_ns, now + k_hour_ns);
   const std::string candidate = identities.enrol("4711", "", t.exam, ledger.key());
   static_cast<void>(issue(ledger, t, candidate));
   const auto entries = ledger.content().entries.size();
@@ -62,7 +64,10 @@ TEST_F(Promised, ACancelledTicketIsNotLiveAndItsExamIsAFinding) {
   Ledger ledger = school_.ledger();
   const std::uint64_t seq = ledger.content().entries.size() - 1;
   cancel_ticket(ledger, seq, "wrong room");
-  EXPECT_EQ(read_registry(ledger.content()).live_ticket(parse_ticket(ticket, "", "t").candidate, parse_ticket(ticket, "", "t").exam, 0), nullptr);
+  EXPECT_EQ(read_registry(ledger.content())
+                .live_ticket(parse_ticket(ticket, "", "t").candidate,
+                             parse_ticket(ticket, "", "t").exam, 0),
+            nullptr);
   EXPECT_THROW(cancel_ticket(ledger, seq, "again"), Error);
   EXPECT_THROW(cancel_ticket(ledger, 0, "no ticket"), Error);
   expect_refused(path, Kind::ticket_cancelled);
@@ -82,7 +87,8 @@ TEST_F(Promised, WhoHasSatAnExamGetsNoOtherTicketForItUnlessAPersonSaysSo) {
   const std::uint64_t session = read_registry(ledger.content()).sessions.at(0).seq;
   const Ticket t = parse_ticket(ticket, "", "t");
   const auto why = thrown_by([&] { static_cast<void>(issue(ledger, t, t.candidate)); });
-  EXPECT_TRUE(tells(why, "block_cavity") && tells(why, Value(static_cast<std::int64_t>(session)))) << testing_basics::text_of(why);
+  EXPECT_TRUE(tells(why, "block_cavity") && tells(why, Value(static_cast<std::int64_t>(session))))
+      << testing_basics::text_of(why);
   EXPECT_NO_THROW(static_cast<void>(issue(ledger, t, t.candidate, Another::allow)));
 }
 
@@ -110,8 +116,10 @@ TEST_F(Promised, AnExamBegunAtTwoStationsCountsWithTheLastWordAlone) {
 }
 
 TEST_F(Promised, AStationsClockThatWasSetBackIsNamedByTheLedgersWord) {
-  // sat now, dated two hours back: the ticket allows it, and so does the day within which an exam is handed in
-  const std::string ticket = school_.ticket("4711", [](Ticket& t) { t.not_before_utc_ns -= 4 * k_hour_ns; });
+  // sat now, dated two hours back: the ticket allows it, and so does the day within which an exam
+  // is handed in
+  const std::string ticket =
+      school_.ticket("4711", [](Ticket& t) { t.not_before_utc_ns -= 4 * k_hour_ns; });
   const std::string word = let_begin(ticket), path = sit(ticket, word);
   const SessionReader session(path);
   SessionSetup setup = session.setup();
@@ -132,7 +140,9 @@ TEST_F(Promised, AStationsClockThatWasSetBackIsNamedByTheLedgersWord) {
       const std::int64_t ns = ticks * 1'000'000;
       return Clocks{at.monotonic_ns + ns, at.boot_ns + ns, at.utc_ns + ns};
     });
-    for (TickInput input; !exam->over() && candidate.next(exam->last(), exam->last_input(), input); ++ticks) static_cast<void>(exam->tick(input));
+    for (TickInput input; !exam->over() && candidate.next(exam->last(), exam->last_input(), input);
+         ++ticks)
+      static_cast<void>(exam->tick(input));
     if (!exam->over()) exam->end();
     exam->recorder().flush();
     grading::ExamContexts grounds;
@@ -151,7 +161,9 @@ TEST_F(Promised, TheWordOfAnotherTicketOrLedgerIsNone) {
 }
 
 TEST_F(Promised, TheLedgerLetsNothingBeginThatItDidNotPromiseNow) {
-  const std::string late = school_.ticket("4711", [](Ticket& t) { t.not_before_utc_ns += 2 * k_hour_ns, t.not_after_utc_ns += 2 * k_hour_ns; });
+  const std::string late = school_.ticket("4711", [](Ticket& t) {
+    t.not_before_utc_ns += 2 * k_hour_ns, t.not_after_utc_ns += 2 * k_hour_ns;
+  });
   EXPECT_EQ(code_of([&] { static_cast<void>(let_begin(late)); }), LedgerError::not_now);
   const std::string cancelled = school_.ticket("4712");
   {
@@ -160,11 +172,14 @@ TEST_F(Promised, TheLedgerLetsNothingBeginThatItDidNotPromiseNow) {
   }
   EXPECT_EQ(code_of([&] { static_cast<void>(let_begin(cancelled)); }), LedgerError::ended);
   Ledger ledger = school_.ledger();
-  EXPECT_EQ(code_of([&] { static_cast<void>(records::let_begin(ledger, std::string(32, '0'), "")); }), LedgerError::unknown);
+  EXPECT_EQ(
+      code_of([&] { static_cast<void>(records::let_begin(ledger, std::string(32, '0'), "")); }),
+      LedgerError::unknown);
 }
 
 TEST_F(Promised, AStationTakesTheWordThatLiesBesideTheTicketAndBeginsNothingWithoutTheOneItNeeds) {
-  const std::string ticket = school_.ticket("4711", [](Ticket&t) { t.begun_at_ledger = true; }), path = school_.file("C.ticket");
+  const std::string ticket = school_.ticket("4711", [](Ticket&t) { t.begun_at_ledger = true; }),
+                    path = school_.file("C.ticket");
   write_text_file(path, ticket + "\n");
   scenarios::ExamOptions options;
   const auto setup = [&](const HeldTicket& held) {
@@ -173,7 +188,8 @@ TEST_F(Promised, AStationTakesTheWordThatLiesBesideTheTicketAndBeginsNothingWith
     return scenarios::prepare_exam(k_scenario, o);
   };
   const HeldTicket without = read_ticket(path);
-  EXPECT_EQ(code_of([&] { require_promised(without, setup(without)->session); }), LedgerError::unknown);
+  EXPECT_EQ(code_of([&] { require_promised(without, setup(without)->session); }),
+            LedgerError::unknown);
   write_text_file(begin_path(path), let_begin(ticket) + "\n");
   const HeldTicket held = read_ticket(path);
   EXPECT_NO_THROW(require_promised(held, setup(held)->session));

@@ -35,11 +35,12 @@ class KeptRegrade : public testing::Test {
     return r;
   }
   void tamper(const std::string& sql) {
-    test::tamper(school_.places().database(),
-                 "DROP TRIGGER document_stays; DROP TRIGGER document_is_kept; " + sql +
-                     "; CREATE TRIGGER document_stays BEFORE UPDATE ON document BEGIN SELECT RAISE(ABORT, 'the ledger is "
-                     "append only'); END; CREATE TRIGGER document_is_kept BEFORE DELETE ON document BEGIN SELECT "
-                     "RAISE(ABORT, 'the ledger is append only'); END");
+    test::tamper(
+        school_.places().database(),
+        "DROP TRIGGER document_stays; DROP TRIGGER document_is_kept; " + sql +
+            "; CREATE TRIGGER document_stays BEFORE UPDATE ON document BEGIN SELECT RAISE(ABORT, 'the ledger is "
+            "append only'); END; CREATE TRIGGER document_is_kept BEFORE DELETE ON document BEGIN SELECT "
+            "RAISE(ABORT, 'the ledger is append only'); END");
   }
   School school_{*shared_};
   std::uint64_t session_ = 0;
@@ -68,7 +69,8 @@ TEST_F(KeptRegrade, IsFoundAgainByteForByteAndKeptOnce) {
   EXPECT_EQ(rubric_of(*kept, "kept")->criteria.at(0).id, "removed");
   EXPECT_FALSE(scenario_of(*kept, "kept"));
   // its hash is in the text that the tree's leaf is of
-  EXPECT_NE(content.entries.at(s.regrades[0].seq).text.find(to_hex(sha256(k_rubric))), std::string::npos);
+  EXPECT_NE(content.entries.at(s.regrades[0].seq).text.find(to_hex(sha256(k_rubric))),
+            std::string::npos);
 }
 
 TEST_F(KeptRegrade, AScenarioIsKeptWithItsSurfaces) {
@@ -90,12 +92,14 @@ TEST_F(KeptRegrade, WhatIsDoneToItIsFound) {
     enter_regrade(ledger, session_, better(), basis_, "appeal");
   }
   const Bytes sound = read_file(school_.places().database());
-  tamper("UPDATE document SET bytes = CAST(replace(CAST(bytes AS TEXT), 'full = 50', 'full = 90') AS BLOB)");
+  tamper(
+      "UPDATE document SET bytes = CAST(replace(CAST(bytes AS TEXT), 'full = 50', 'full = 90') AS BLOB)");
   expect_kinds(check_ledger(school_.places(), false).findings, {Kind::part_changed});
   EXPECT_THROW(school_.ledger(), Error);
   write_file(school_.places().database(), sound);
   tamper("DELETE FROM document");
-  expect_finding(check_ledger(school_.places(), false).findings, Kind::part_missing, {"rubric.toml"});
+  expect_finding(check_ledger(school_.places(), false).findings, Kind::part_missing,
+                 {"rubric.toml"});
   write_file(school_.places().database(), sound);
   tamper("INSERT INTO document VALUES (x'" + to_hex(sha256(std::string("x"))) + "', x'78')");
   expect_kinds(check_ledger(school_.places(), false).findings, {Kind::foreign});
@@ -103,7 +107,8 @@ TEST_F(KeptRegrade, WhatIsDoneToItIsFound) {
 
 TEST_F(KeptRegrade, AReasonIsALineOfText) {
   Ledger ledger = school_.ledger();
-  for (const std::string& reason : {std::string(), std::string("two\nlines"), std::string("\xff"), std::string(k_longest_reason + 1, 'a')})
+  for (const std::string& reason : {std::string(), std::string("two\nlines"), std::string("\xff"),
+                                    std::string(k_longest_reason + 1, 'a')})
     EXPECT_THROW(enter_regrade(ledger, session_, sealed_, basis_, reason), Error) << reason;
   EXPECT_EQ(ledger.content().documents.size(), 0u);
 }

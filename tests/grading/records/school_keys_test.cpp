@@ -1,4 +1,5 @@
-// The school's keys: each purpose has a secret of its own, a key can be replaced and run out, and what was signed before stays proved.
+// The school's keys: each purpose has a secret of its own, a key can be replaced and run out, and
+// what was signed before stays proved.
 #include "grading/records/school_keys.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,8 @@ using testing_basics::code_of;
 TEST(DerivedSecret, IsHkdfOfRfc5869) {
   // RFC 5869, A.3: SHA-256 with empty salt and info; the first 32 of its 42 bytes
   const Bytes material(22, 0x0b);
-  EXPECT_EQ(to_hex(hkdf_sha256(material, "")), "8da4e775a563c18f715f802a063c5a31b8a11f5c5ee1879ec3454e5f3c738d2d");
+  EXPECT_EQ(to_hex(hkdf_sha256(material, "")),
+            "8da4e775a563c18f715f802a063c5a31b8a11f5c5ee1879ec3454e5f3c738d2d");
 }
 
 TEST(DerivedSecret, IsAnotherForEachPurposeAndNeverTheSeed) {
@@ -45,10 +47,12 @@ TEST_F(SchoolKeys, ReplacedThenTheNewOneSignsAndAllOfBeforeStaysProved) {
   const std::string old_ticket = school_.ticket("4711");
   const auto receipt = school_.ledger().receipt(3);
   const Ledger before = school_.ledger();
-  const std::string results = signed_results(read_registry(before.content()), before), first = before.content().public_key, now = replace();
+  const std::string results = signed_results(read_registry(before.content()), before),
+                    first = before.content().public_key, now = replace();
   EXPECT_NE(first, now);
   EXPECT_EQ(to_hex(School::key().public_key), now) << "the new key is in the place of the old one";
-  EXPECT_EQ(to_hex(load_school_key(old_key_path(school_key_path(), first)).public_key), first) << "which is kept beside it";
+  EXPECT_EQ(to_hex(load_school_key(old_key_path(school_key_path(), first)).public_key), first)
+      << "which is kept beside it";
   expect_holds();
   const LedgerContent c = read_ledger(school_.places());
   EXPECT_EQ(c.public_key, now);
@@ -57,11 +61,14 @@ TEST_F(SchoolKeys, ReplacedThenTheNewOneSignsAndAllOfBeforeStaysProved) {
   EXPECT_EQ(c.key_of(c.entries.size()), now) << "the entry that introduces it is signed by it";
   for (const auto& f : check_receipt(receipt, c.public_key, &c)) ADD_FAILURE() << f.message();
   for (const auto& f : check_results(results, c.public_key, &c)) ADD_FAILURE() << f.message();
-  EXPECT_TRUE(Identities(school_.places().identities()).check(School::key()).empty()) << "identities are sealed by the new one";
+  EXPECT_TRUE(Identities(school_.places().identities()).check(School::key()).empty())
+      << "identities are sealed by the new one";
   Ledger ledger = school_.ledger();
-  EXPECT_TRUE(check_receipt(ledger.receipt(3), now, nullptr).empty()) << "a new receipt of an old entry needs the new key alone";
+  EXPECT_TRUE(check_receipt(ledger.receipt(3), now, nullptr).empty())
+      << "a new receipt of an old entry needs the new key alone";
   const Filing filing = file_session(ledger, school_.sit(old_ticket));
-  for (const auto& f : filing.findings) ADD_FAILURE() << f.message() << " (a ticket of before is still good)";
+  for (const auto& f : filing.findings)
+    ADD_FAILURE() << f.message() << " (a ticket of before is still good)";
   const Filing newer = file_session(ledger, school_.sit(school_.ticket("4712")));
   for (const auto& f : newer.findings) ADD_FAILURE() << f.message();
   expect_holds();
@@ -87,14 +94,18 @@ TEST_F(SchoolKeys, ResultsSignedByTheOldKeyAfterItWasReplacedAreFound) {
 TEST_F(SchoolKeys, TheOldKeySignsNothingMore) {
   const SigningKey old = School::key();
   static_cast<void>(replace());
-  EXPECT_EQ(code_of([&] { const Ledger ledger(school_.ledger_folder(), old); }), LedgerError::another_key);
+  EXPECT_EQ(code_of([&] { const Ledger ledger(school_.ledger_folder(), old); }),
+            LedgerError::another_key);
 }
 
 TEST_F(SchoolKeys, AKeyThatNoKeyBeforeItHasSignedIsFound) {
   const SigningKey stranger = load_signing_key(school_.file("stranger.key"), "school");
   Ledger ledger = school_.ledger();
-  ledger.append([&](const LedgerContent& now) { return school_key_entry(now, stranger, stranger, 0); }, "mine now");
-  expect_finding(check_ledger(school_.places(), false).findings, Kind::signature_invalid, {std::to_string(k_first_entries)});
+  ledger.append(
+      [&](const LedgerContent& now) { return school_key_entry(now, stranger, stranger, 0); },
+      "mine now");
+  expect_finding(check_ledger(school_.places(), false).findings, Kind::signature_invalid,
+                 {std::to_string(k_first_entries)});
   EXPECT_EQ(read_ledger(school_.places()).public_key, to_hex(School::key().public_key));
 }
 
@@ -108,7 +119,8 @@ TEST_F(SchoolKeys, AWordOfAnotherLedgerIntroducesNoKey) {
   }
   Ledger ledger = school_.ledger();
   ledger.append([&](const LedgerContent&) { return word; });
-  expect_finding(check_ledger(school_.places(), false).findings, Kind::signature_invalid, {std::to_string(k_first_entries)});
+  expect_finding(check_ledger(school_.places(), false).findings, Kind::signature_invalid,
+                 {std::to_string(k_first_entries)});
 }
 
 TEST_F(SchoolKeys, OneThatRanOutEntersNothingUntilItIsReplaced) {
@@ -118,7 +130,10 @@ TEST_F(SchoolKeys, OneThatRanOutEntersNothingUntilItIsReplaced) {
   }
   expect_holds();
   Ledger ledger = school_.ledger();
-  EXPECT_EQ(code_of([&] { ledger.append([](const LedgerContent&) { return ForgetEntry{"C-a", {}}; }); }), LedgerError::ended);
+  EXPECT_EQ(code_of([&] {
+              ledger.append([](const LedgerContent&) { return ForgetEntry{"C-a", {}}; });
+            }),
+            LedgerError::ended);
   static_cast<void>(replace(read_clocks().utc_ns + k_hour_ns));
   EXPECT_NO_THROW(school_.ticket("4711"));
   expect_holds();
@@ -145,23 +160,30 @@ TEST_F(SchoolKeys, AnOlderCopyPutBackFromBeforeTheReplacementIsFound) {
   static_cast<void>(replace());
   school_.ticket("4711");
   write_file(school_.places().database(), old);
-  expect_finding(read_ledger(school_.places()).findings, Kind::witness_changed, {witness_path(read_ledger(school_.places()).id)});
+  expect_finding(read_ledger(school_.places()).findings, Kind::witness_changed,
+                 {witness_path(read_ledger(school_.places()).id)});
 }
 
 TEST_F(SchoolKeys, ACosignerGoesOnWithTheNewKeyWhenTheOldOneHasSignedForIt) {
-  Cosigner cosigner{"cosigner.example/one", load_signing_key(school_.file("cosigner.key"), "cosigner"), school_.file("memory"),
-                    to_hex(School::key().public_key)};
-  ASSERT_TRUE(cosign(cosigner, cosign_request(read_ledger(school_.places()), 0), "request", 1).findings.empty());
+  Cosigner cosigner{"cosigner.example/one",
+                    load_signing_key(school_.file("cosigner.key"), "cosigner"),
+                    school_.file("memory"), to_hex(School::key().public_key)};
+  ASSERT_TRUE(cosign(cosigner, cosign_request(read_ledger(school_.places()), 0), "request", 1)
+                  .findings.empty());
   static_cast<void>(replace());
   const LedgerContent c = read_ledger(school_.places());
   cosigner.school_key.clear();
-  expect_kinds(cosign(cosigner, cosign_request(c, k_first_entries), "request", 2).findings, {Kind::signature_invalid});
-  cosigner.key_entries = {c.entries.at(k_first_entries - 1).text, c.entries.at(k_first_entries).text};
+  expect_kinds(cosign(cosigner, cosign_request(c, k_first_entries), "request", 2).findings,
+               {Kind::signature_invalid});
+  cosigner.key_entries = {c.entries.at(k_first_entries - 1).text,
+                          c.entries.at(k_first_entries).text};
   const Cosigned signed_now = cosign(cosigner, cosign_request(c, k_first_entries), "request", 3);
   EXPECT_TRUE(signed_now.findings.empty());
   cosigner.key_entries.clear();
-  EXPECT_TRUE(cosign(cosigner, cosign_request(c, c.entries.size()), "request", 4).findings.empty()) << "and remembers it";
-  const auto check = check_cosigned(signed_now.note, {{cosigner.name, NoteKind::cosignature, cosigner.key.public_key}}, c);
+  EXPECT_TRUE(cosign(cosigner, cosign_request(c, c.entries.size()), "request", 4).findings.empty())
+      << "and remembers it";
+  const auto check = check_cosigned(
+      signed_now.note, {{cosigner.name, NoteKind::cosignature, cosigner.key.public_key}}, c);
   for (const auto& f : check.findings) ADD_FAILURE() << f.message();
 }
 

@@ -1,5 +1,6 @@
-// An exam that was broken off after 150 ticks: whole in everything that a ledger asks of it, and filed within milliseconds, for tests that file
-// thousands of times and look at other things than physics.
+// An exam that was broken off after 150 ticks: whole in everything that a ledger asks of it, and
+// filed within milliseconds, for tests that file thousands of times and look at other things than
+// physics.
 #pragma once
 
 #include <functional>
@@ -27,7 +28,8 @@ inline const ShortMotion& short_motion(const scenarios::ExamSetup& setup) {
     ShortMotion m{candidate.start_mm(), {}};
     const TickOutput rest;
     TickInput input;
-    for (int i = 0; i < k_short_ticks && candidate.next(rest, input, input); ++i) m.inputs.push_back(input);
+    for (int i = 0; i < k_short_ticks && candidate.next(rest, input, input); ++i)
+      m.inputs.push_back(input);
     return m;
   }();
   return made;
@@ -39,8 +41,10 @@ struct StationClock {
 };
 
 /// Sits it with a ticket, as a hand would, and seals it. `change` may alter what each tick reads.
-inline void sit_shortly(const std::string& scenario, const std::string& path, const std::string& ticket, const StationClock& clock = {},
-                        const std::function<void(std::int64_t tick, TickInput& input)>& change = {}) {
+inline void sit_shortly(
+    const std::string& scenario, const std::string& path, const std::string& ticket,
+    const StationClock& clock = {},
+    const std::function<void(std::int64_t tick, TickInput& input)>& change = {}) {
   scenarios::ExamOptions options;
   options.candidate = records::parse_ticket(ticket, "", "ticket").candidate;
   options.source = {SourceKind::device, "emulated stylus", "E1"};
@@ -49,8 +53,10 @@ inline void sit_shortly(const std::string& scenario, const std::string& path, co
   std::int64_t ticks = 0;
   const Clocks begun = read_clocks();
   const auto now = [&] {
-    const std::int64_t ns = ticks * 1'000'000, set = ticks > k_short_ticks / 2 ? clock.set_in_the_middle_ns : 0;
-    return Clocks{begun.monotonic_ns + ns, begun.boot_ns + ns, begun.utc_ns + clock.ahead_ns + ns + set + ticks * clock.drift_ns_per_s / 1000};
+    const std::int64_t ns = ticks * 1'000'000,
+                       set = ticks > k_short_ticks / 2 ? clock.set_in_the_middle_ns : 0;
+    return Clocks{begun.monotonic_ns + ns, begun.boot_ns + ns,
+                  begun.utc_ns + clock.ahead_ns + ns + set + ticks * clock.drift_ns_per_s / 1000};
   };
   const auto exam = scenarios::Exam::start(*setup, path, short_motion(*setup).start_mm, now);
   for (TickInput input : short_motion(*setup).inputs) {

@@ -28,9 +28,11 @@ TEST_F(StationTicket, IsRefusedASecondTimeAndNamesTheFirst) {
   EXPECT_EQ(answer, 7);
   const auto refusal = testing_basics::thrown_by([&] { require_unused(mine); });
   EXPECT_EQ(testing_basics::code_of(refusal), LedgerError::used);
-  EXPECT_TRUE(testing_basics::tells(refusal, "exams/a b.cavum")) << testing_basics::text_of(refusal);
+  EXPECT_TRUE(testing_basics::tells(refusal, "exams/a b.cavum"))
+      << testing_basics::text_of(refusal);
   bool begun = false;
-  EXPECT_THROW(static_cast<void>(begin_with_ticket(&mine, "b.cavum", [&] { return begun = true; })), Error);
+  EXPECT_THROW(static_cast<void>(begin_with_ticket(&mine, "b.cavum", [&] { return begun = true; })),
+               Error);
   EXPECT_FALSE(begun);
   EXPECT_NO_THROW(require_unused(other)) << "another ticket is another exam";
 }

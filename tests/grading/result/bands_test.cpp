@@ -22,7 +22,8 @@ constexpr char k_bands_target[] =
     "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"polygon\", points_mm = [[-1.5, -1], [1.5, -1], [1.5, 1], [-1.5, 1]] }\nbottom = { "
     "kind = \"level\", z_mm = -2 }\n";
 
-/// Bands with `most` marginal criteria; limits of the mesial and of the distal wall, and of the target's share.
+/// Bands with `most` marginal criteria; limits of the mesial and of the distal wall, and of the
+/// target's share.
 scenarios::RubricSpec rubric(int most_marginal, const std::string& bands_of_walls = "[0.2, 0.5]") {
   const auto wall = [&](const std::string& side) {
     return "[[criteria]]\nid = \"" + side + "\"\nmetric = \"" + side +
@@ -30,7 +31,8 @@ scenarios::RubricSpec rubric(int most_marginal, const std::string& bands_of_wall
   };
   return scenarios::parse_rubric(
       "rule = \"compensatory\"\npass_percent = 50\n[[bands]]\nname = \"acceptable\"\n[[bands]]\nname = \"marginal\"\nmost = " +
-          std::to_string(most_marginal) + "\n[[bands]]\nname = \"critical\"\nmost = 0\n" + wall("mesial") + wall("distal") +
+          std::to_string(most_marginal) + "\n[[bands]]\nname = \"critical\"\nmost = 0\n" +
+          wall("mesial") + wall("distal") +
           "[[criteria]]\nid = \"removed\"\nmetric = \"target_removed_percent\"\nfull = 97\nzero = 10\npoints = 10\nbands = [95, 60]\n",
       "r.toml");
 }
@@ -41,7 +43,9 @@ Result cut_beyond(double mesial, double distal, const scenarios::RubricSpec& by,
   c.carve(box_hole(-1.5 - distal, 1.5 + mesial, -1, 1, -depth), 0);
   return grade(c.input(), by);
 }
-std::string band(const Result& r, std::size_t criterion) { return r.bands.at(r.criteria.at(criterion).band.value()).name; }
+std::string band(const Result& r, std::size_t criterion) {
+  return r.bands.at(r.criteria.at(criterion).band.value()).name;
+}
 
 TEST(Bands, AValueLiesInTheFirstBandWhoseLimitItDoesNotPass) {
   const Result r = cut_beyond(0.35, 0.0, rubric(1));
@@ -53,7 +57,8 @@ TEST(Bands, AValueLiesInTheFirstBandWhoseLimitItDoesNotPass) {
   EXPECT_EQ(j["criteria"][0]["band"], "marginal");
   EXPECT_EQ(j["score"]["bands"][0]["criteria"], 2);
   EXPECT_EQ(j["score"]["bands"][1]["most"], 1);
-  EXPECT_TRUE(testing_basics::tells(r.criteria[0].reason(), "marginal") && testing_basics::tells(r.criteria[0].reason(), 0.2));
+  EXPECT_TRUE(testing_basics::tells(r.criteria[0].reason(), "marginal") &&
+              testing_basics::tells(r.criteria[0].reason(), 0.2));
 }
 
 TEST(Bands, OneMoreThanABandMayHoldFailsWhateverThePoints) {

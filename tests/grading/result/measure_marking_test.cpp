@@ -18,7 +18,8 @@ using testing::k_chamber_target;
 using testing::opening_pulp;
 
 TEST(MeasureMarking, EveryPlaceInTheJsonHoldsTheValueAndItsBound) {
-  const std::string asked = "[[rubric.criteria]]\nid = \"left\"\nmetric = \"dentin_over_pulp_mm\"\nfull = 1\nzero = 0\npoints = 1\n";
+  const std::string asked =
+      "[[rubric.criteria]]\nid = \"left\"\nmetric = \"dentin_over_pulp_mm\"\nfull = 1\nzero = 0\npoints = 1\n";
   Carved c(opening_pulp(k_chamber_target) + asked, chambered_block(0.1));
   c.carve(box_hole(-1.5, 0.4, -1, 1.6, -4.7), 100);
   c.carve(box_hole(0.2, 0.9, -1.9, 1, -2), 1000);
@@ -35,18 +36,22 @@ TEST(MeasureMarking, EveryPlaceInTheJsonHoldsTheValueAndItsBound) {
     EXPECT_TRUE(json.contains(place)) << pointer;
     return json.contains(place) ? json[place] : nlohmann::ordered_json();
   };
-  const auto number = [](const nlohmann::ordered_json& j) { return j.is_boolean() ? (j.get<bool>() ? 1.0 : 0.0) : j.get<double>(); };
+  const auto number = [](const nlohmann::ordered_json& j) {
+    return j.is_boolean() ? (j.get<bool>() ? 1.0 : 0.0) : j.get<double>();
+  };
   for (const auto& m : scenarios::measures()) {
-    if (!m.tissue.empty() && std::none_of(r.tissues.begin(), r.tissues.end(), [&](const Tissue& t) { return t.name == m.tissue; })) continue;
+    if (!m.tissue.empty() && std::none_of(r.tissues.begin(), r.tissues.end(),
+                                          [&](const Tissue& t) { return t.name == m.tissue; }))
+      continue;
     const MetricValue v = metric_value(r, m.name);
-    if (const std::string pointer = json_place(m); !pointer.empty()) {
+    if (const std::string pointer = json_location(m); !pointer.empty()) {
       ++places;
       if (const auto found = at(pointer); !found.is_null()) {
         ASSERT_TRUE(v.value) << m.name;
         EXPECT_EQ(number(found), rounded(*v.value)) << m.name;
       }
     }
-    if (const std::string pointer = bound_json_place(m); !pointer.empty()) {
+    if (const std::string pointer = bound_json_location(m); !pointer.empty()) {
       ++bounds;
       if (const auto found = at(pointer); !found.is_null()) {
         EXPECT_EQ(number(found), rounded(v.bound)) << m.name;

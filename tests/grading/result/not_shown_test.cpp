@@ -14,11 +14,14 @@ using testing::Carved;
 using testing::dentin_block;
 using testing::scenario_text;
 
-constexpr char k_target[] = "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [2, 2, 3]\n";
+constexpr char k_target[] =
+    "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [2, 2, 3]\n";
 
-std::string criterion(const std::string& id, const std::string& metric, double full, double zero, double points, const std::string& more = "") {
-  return fmt::format("[[rubric.criteria]]\nid = \"{}\"\nmetric = \"{}\"\nfull = {}\nzero = {}\npoints = {}\n{}", id, metric, full, zero, points,
-                     more);
+std::string criterion(const std::string& id, const std::string& metric, double full, double zero,
+                      double points, const std::string& more = "") {
+  return fmt::format(
+      "[[rubric.criteria]]\nid = \"{}\"\nmetric = \"{}\"\nfull = {}\nzero = {}\npoints = {}\n{}",
+      id, metric, full, zero, points, more);
 }
 
 /// The target cut exactly, or half of it, handed in without a recording.
@@ -33,7 +36,8 @@ Result marked(const std::string& criteria, double depth_mm) {
 }
 
 TEST(NotShown, WhatNeedsTimeWayOrForceHasNoPointsAndTakesNone) {
-  const Result r = marked(criterion("time", "time_s", 5, 10, 20) + criterion("force", "force_peak_n", 1, 2, 10), 2.0);
+  const Result r = marked(
+      criterion("time", "time_s", 5, 10, 20) + criterion("force", "force_peak_n", 1, 2, 10), 2.0);
   double judged = 0, not_judged = 0;
   for (const auto& c : r.criteria) {
     EXPECT_EQ(c.judged, c.id != "time" && c.id != "force") << c.id;
@@ -56,12 +60,14 @@ TEST(NotShown, WhatNeedsTimeWayOrForceHasNoPointsAndTakesNone) {
       EXPECT_FALSE(c["judged"].get<bool>());
     }
   // nobody knows when
-  for (const auto& [name, wall] : json["walls"].items()) EXPECT_TRUE(wall["max_over_tick"].is_null()) << name;
+  for (const auto& [name, wall] : json["walls"].items())
+    EXPECT_TRUE(wall["max_over_tick"].is_null()) << name;
   for (const auto& c : json["criteria"]) EXPECT_TRUE(c["first_tick"].is_null()) << c;
 }
 
 TEST(NotShown, APassStandsWhateverTheRestIsWorth) {
-  // all else full: the pass mark is 60 %, and the points that are open decide only when they are many
+  // all else full: the pass mark is 60 %, and the points that are open decide only when they are
+  // many
   const double others = marked("", 2.0).max_points;
   EXPECT_EQ(marked(criterion("time", "time_s", 5, 10, 0.1 * others), 2.0).verdict, Verdict::pass);
   EXPECT_EQ(marked(criterion("time", "time_s", 5, 10, 2.0 * others), 2.0).verdict, Verdict::review);
@@ -69,7 +75,8 @@ TEST(NotShown, APassStandsWhateverTheRestIsWorth) {
 
 TEST(NotShown, ACriticalLimitThatCouldNotBeJudgedIsNoPass) {
   const double others = marked("", 2.0).max_points;
-  const Result r = marked(criterion("force", "force_peak_n", 1, 2, 0.1 * others, "critical_above = 4\n"), 2.0);
+  const Result r =
+      marked(criterion("force", "force_peak_n", 1, 2, 0.1 * others, "critical_above = 4\n"), 2.0);
   EXPECT_EQ(r.verdict, Verdict::review);
 }
 

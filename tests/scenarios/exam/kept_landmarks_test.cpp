@@ -1,4 +1,5 @@
-// An exam keeps the landmarks that its zones were laid by: whoever finds others later still has its ground.
+// An exam keeps the landmarks that its zones were laid by: whoever finds others later still has its
+// ground.
 #include <gtest/gtest.h>
 
 #include "engine/base/file.h"
@@ -43,7 +44,8 @@ TEST_F(KeptLandmarks, TheZonesOfASessionFollowThoseItKept) {
   SessionSetup kept = SessionReader(folder_.file("s.cavum")).setup();
   EXPECT_EQ(kept.landmarks_json, setup->session.landmarks_json);
 
-  // another program's fissure lies 0.5 mm further to buccal: what the exam kept decides, here as in a reader that would find it elsewhere
+  // another program's fissure lies 0.5 mm further to buccal: what the exam kept decides, here as in
+  // a reader that would find it elsewhere
   Landmarks other = parse_landmarks(kept.landmarks_json, "kept");
   for (Vec3& p : other.central_fissure_mm) p.y += 0.5;
   kept.landmarks_json = landmarks_text(other);
@@ -52,7 +54,9 @@ TEST_F(KeptLandmarks, TheZonesOfASessionFollowThoseItKept) {
 }
 
 TEST_F(KeptLandmarks, AreNotKeptWhereNoZoneFollowsThem) {
-  EXPECT_EQ(exam_in("[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, 0]\nsize_mm = [1, 1, 3]\n")->session.landmarks_json, "");
+  EXPECT_EQ(exam_in("[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, 0]\nsize_mm = [1, 1, 3]\n")
+                ->session.landmarks_json,
+            "");
 }
 
 }  // namespace

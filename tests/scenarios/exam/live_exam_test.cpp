@@ -1,4 +1,5 @@
-// An exam in real time: the servo on its own thread and the recording twin must be one, whatever the machine does meanwhile.
+// An exam in real time: the servo on its own thread and the recording twin must be one, whatever
+// the machine does meanwhile.
 #include "scenarios/exam/live_exam.h"
 
 #include <gtest/gtest.h>
@@ -22,12 +23,14 @@ namespace {
 using namespace std::chrono_literals;
 using testing_basics::comes_true;
 
-/// The simulated Omni drilling into the middle of the block; a test may hold a button or take the pedal away.
+/// The simulated Omni drilling into the middle of the block; a test may hold a button or take the
+/// pedal away.
 class Drilling final : public ServoDevice {
  public:
   Drilling()
       : stylus_({}, {}, 1e-3, [](double t_s) {
-          return HandIntent{{0.3 * std::sin(t_s), 0, std::max(-0.9, 0.6 - t_s)}, t_s > 0.2 ? 1.0 : 0.0};
+          return HandIntent{{0.3 * std::sin(t_s), 0, std::max(-0.9, 0.6 - t_s)},
+                            t_s > 0.2 ? 1.0 : 0.0};
         }) {}
   [[nodiscard]] DeviceReading read(double elapsed_s) override {
     DeviceReading r = stylus_.read(elapsed_s);
@@ -48,12 +51,17 @@ class LiveExamTest : public ::testing::Test {
  protected:
   void SetUp() override {
     ::setenv("CAVUM_HOME", folder_.file("").c_str(), 1);
-    std::string scenario = read_text_file(std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml");
-    scenario.insert(scenario.find("time_limit_s"), "pauses = { count = 1, longest_s = 60, button = 1 }\n");
-    scenario.replace(scenario.find("time_limit_s = 120"), 18, "time_limit_s = " + std::to_string(limit_s_));
+    std::string scenario =
+        read_text_file(std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml");
+    scenario.insert(scenario.find("time_limit_s"),
+                    "pauses = { count = 1, longest_s = 60, button = 1 }\n");
+    scenario.replace(scenario.find("time_limit_s = 120"), 18,
+                     "time_limit_s = " + std::to_string(limit_s_));
     write_text_file(folder_.file("task.toml"), scenario);
-    write_file(folder_.file("block.cvt"),
-               save_tooth(make_block({6, 6, 5}, {{"enamel", 1.0}, {"dentin", 1.5}, {"pulp", 1.0}, {"dentin", 1.5}}, 0.05)));
+    write_file(
+        folder_.file("block.cvt"),
+        save_tooth(make_block(
+            {6, 6, 5}, {{"enamel", 1.0}, {"dentin", 1.5}, {"pulp", 1.0}, {"dentin", 1.5}}, 0.05)));
     ExamOptions options;
     options.candidate = "t";
     options.position_quantum_mm = OmniModel{}.quantum_mm;
@@ -83,8 +91,10 @@ TEST_F(LiveExamTest, ServoAndTwinAgreeAndTheSessionVerifies) {
   EXPECT_TRUE(verified.verified) << testing_basics::text_of(verified.findings);
   EXPECT_EQ(verified.ticks, report.writer.ticks - report.late_ticks);
   EXPECT_GT(live.exam().state().tooth.edit_hash(), 0u);
-  std::printf("%lld ticks, %lld overruns, %lld made up, %lld taken after the end\n", static_cast<long long>(verified.ticks),
-              static_cast<long long>(report.servo.overruns), static_cast<long long>(report.servo.made_up), static_cast<long long>(report.late_ticks));
+  std::printf("%lld ticks, %lld overruns, %lld made up, %lld taken after the end\n",
+              static_cast<long long>(verified.ticks), static_cast<long long>(report.servo.overruns),
+              static_cast<long long>(report.servo.made_up),
+              static_cast<long long>(report.late_ticks));
 }
 
 TEST_F(LiveExamTest, WhatTheStationNotesIsRecordedAndChangesNoTick) {

@@ -11,7 +11,8 @@ namespace {
 using testing::dentin_block;
 using testing::scenario_text;
 
-const char k_box[] = "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [1, 1, 1]\n";
+const char k_box[] =
+    "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [1, 1, 1]\n";
 
 struct Exam {
   Tooth tooth = dentin_block(2, 3, 0.1);
@@ -20,7 +21,9 @@ struct Exam {
   Runner runner;
   RunnerState state;
   explicit Exam(Scenario s)
-      : scenario(std::move(s)), zones(build_zones(scenario, tooth)), runner(scenario, zones, tooth, {"round-1.0", "needle-0.8"}) {}
+      : scenario(std::move(s)),
+        zones(build_zones(scenario, tooth)),
+        runner(scenario, zones, tooth, {"round-1.0", "needle-0.8"}) {}
 
   void tick(std::span<const RemovedLeaf> removed = {}, std::uint8_t bur = 0, double rpm = 0) {
     TickInput in;
@@ -43,7 +46,8 @@ struct Exam {
   }
   [[nodiscard]] RemovedLeaf leaf(Vec3 mm, std::uint8_t tissue = k_dentin) const {
     const IVec3 l = tooth.octree.leaf_at(mm);
-    return {static_cast<std::int16_t>(l.x), static_cast<std::int16_t>(l.y), static_cast<std::int16_t>(l.z), tissue, 0};
+    return {static_cast<std::int16_t>(l.x), static_cast<std::int16_t>(l.y),
+            static_cast<std::int16_t>(l.z), tissue, 0};
   }
 };
 
@@ -74,18 +78,21 @@ TEST(Runner, ExtraTimeIsExactToTheTick) {
 }
 
 TEST(Runner, ExtraSecondsAddToThePercentAndReachStepsInProportion) {
-  Scenario s = scenario_with("complete_when = \"target_removed_percent >= 99\"\n", "complete_when = \"0\"\ntime_limit_s = 4\n");
+  Scenario s = scenario_with("complete_when = \"target_removed_percent >= 99\"\n",
+                             "complete_when = \"0\"\ntime_limit_s = 4\n");
   s.accommodations.extra_time_percent = 25;
   s.accommodations.extra_time_s = 2.003;
   Exam exam(std::move(s));
   EXPECT_EQ(exam.runner.limit_ticks(), 12500 + 2003);
   while (exam.events<StepTimeUp>().empty()) exam.tick();
-  EXPECT_EQ(exam.state.ticks, 5000 + 801);  // 4 s are two fifths of the exam: 2.003 s * 0.4 = 801.2 ticks more
+  EXPECT_EQ(exam.state.ticks,
+            5000 + 801);  // 4 s are two fifths of the exam: 2.003 s * 0.4 = 801.2 ticks more
 }
 
 /// A scenario of `limit_s` with two pauses of at most 0.25 s, on button 2.
 Scenario pausing(const std::string& limit_s) {
-  return scenario_with("time_limit_s = 10", "time_limit_s = " + limit_s + "\n[pauses]\ncount = 2\nlongest_s = 0.25");
+  return scenario_with("time_limit_s = 10",
+                       "time_limit_s = " + limit_s + "\n[pauses]\ncount = 2\nlongest_s = 0.25");
 }
 
 TEST(Runner, APauseStopsTheClockToTheTick) {
@@ -199,7 +206,8 @@ TEST(Runner, WorkAfterTheEndDoesNotCount) {
 }
 
 TEST(Runner, StepsCompleteInTheTickTheirConditionComesTrue) {
-  Exam exam(scenario_with("target_removed_percent >= 99", "target_removed_percent >= 0.2 && touched_dentin > 0.0015"));
+  Exam exam(scenario_with("target_removed_percent >= 99",
+                          "target_removed_percent >= 0.2 && touched_dentin > 0.0015"));
   const RemovedLeaf one[] = {exam.leaf({0.01, 0, -0.1})}, two[] = {exam.leaf({0.01, 0.11, -0.1})};
   exam.tick(one);
   EXPECT_EQ(exam.state.finish, Finish::running);
@@ -210,9 +218,11 @@ TEST(Runner, StepsCompleteInTheTickTheirConditionComesTrue) {
 
 /// A look with the pedal off completes the step; then the work goes on.
 TEST(Runner, OnlyTheCandidateOrTheClockEndsAnExam) {
-  const Scenario s = scenario_with("target_removed_percent >= 99", "target_removed_percent > 0 && contact == 0 && pedal == 0");
+  const Scenario s = scenario_with("target_removed_percent >= 99",
+                                   "target_removed_percent > 0 && contact == 0 && pedal == 0");
   const auto look_and_go_on = [](Exam& exam) {
-    const RemovedLeaf one[] = {exam.leaf({0.01, 0, -0.1})}, more[] = {exam.leaf({0.01, 0.11, -0.1})};
+    const RemovedLeaf one[] = {exam.leaf({0.01, 0, -0.1})},
+                      more[] = {exam.leaf({0.01, 0.11, -0.1})};
     exam.tick(one);
     exam.tick(more);
     return exam.state.removed_in_zone[static_cast<std::size_t>(Zone::target)];
@@ -234,7 +244,8 @@ TEST(Runner, OnlyTheCandidateOrTheClockEndsAnExam) {
 }
 
 TEST(Runner, WhatIsProtectedCountsAsOutsideWhileTheExamRuns) {
-  const std::string guard = "[[zones.protected]]\nshape = \"box\"\nat_mm = [0.9, 0, -0.5]\nsize_mm = [0.4, 1, 1]\n";  // 0.2 mm beside the target
+  const std::string guard =
+      "[[zones.protected]]\nshape = \"box\"\nat_mm = [0.9, 0, -0.5]\nsize_mm = [0.4, 1, 1]\n";  // 0.2 mm beside the target
   const auto completes = [&](const char* condition) {
     std::string text = scenario_text(k_box + guard);
     const std::string from = "target_removed_percent >= 99";
@@ -256,8 +267,11 @@ TEST(Runner, HowTheLastStepEndedIsHowTheExamEnded) {
     exam.runner.end(exam.state);
     return exam.state.finish;
   };
-  EXPECT_EQ(ended("complete_when = \"target_removed_percent >= 99\"\ntime_limit_s = 0.05\n"), Finish::time);
-  EXPECT_EQ(ended("complete_when = \"target_removed_percent >= 99\"\nfail_when = \"time_s > 0.04\"\n"), Finish::failed);
+  EXPECT_EQ(ended("complete_when = \"target_removed_percent >= 99\"\ntime_limit_s = 0.05\n"),
+            Finish::time);
+  EXPECT_EQ(
+      ended("complete_when = \"target_removed_percent >= 99\"\nfail_when = \"time_s > 0.04\"\n"),
+      Finish::failed);
   EXPECT_EQ(ended("complete_when = \"time_s > 0.04\"\n"), Finish::completed);
 }
 
@@ -293,7 +307,8 @@ TEST(Runner, TellsAimsFromFaultsAndWhereTheyWereFirstTouched) {
   Scenario s = scenario_with();
   s.perforation = {{"pulp"}, {"periodontium"}};
   Exam exam(std::move(s));
-  const RemovedLeaf pulp[] = {exam.leaf({0, 0, -1.5}, k_pulp)}, ligament[] = {exam.leaf({0.5, 0, -2.5}, k_periodontium)};
+  const RemovedLeaf pulp[] = {exam.leaf({0, 0, -1.5}, k_pulp)},
+                    ligament[] = {exam.leaf({0.5, 0, -2.5}, k_periodontium)};
   exam.tick();
   exam.tick(pulp);
   exam.tick(pulp);
@@ -303,7 +318,8 @@ TEST(Runner, TellsAimsFromFaultsAndWhereTheyWereFirstTouched) {
   ASSERT_EQ(exam.events<AimReached>().size(), 1u);
   EXPECT_EQ(exam.events<AimReached>()[0].tick, 1);
   EXPECT_EQ(exam.events<Perforated>().at(0).tick, 3);
-  EXPECT_EQ(exam.tooth.octree.leaf_at(exam.events<Perforated>().at(0).event.site_mm), exam.tooth.octree.leaf_at({0.5, 0, -2.5}));
+  EXPECT_EQ(exam.tooth.octree.leaf_at(exam.events<Perforated>().at(0).event.site_mm),
+            exam.tooth.octree.leaf_at({0.5, 0, -2.5}));
 }
 
 TEST(Runner, KeepsTheEndEvenWhenTheListOfEventsIsFull) {
@@ -311,7 +327,8 @@ TEST(Runner, KeepsTheEndEvenWhenTheListOfEventsIsFull) {
   for (int i = 0; i < 1000; ++i) exam.tick({}, static_cast<std::uint8_t>(i & 1));
   EXPECT_EQ(exam.state.finish, Finish::time);
   EXPECT_GT(exam.state.events_dropped, 0u);
-  EXPECT_TRUE(std::holds_alternative<Finished>(exam.state.events[exam.state.event_count - 1].event));
+  EXPECT_TRUE(
+      std::holds_alternative<Finished>(exam.state.events[exam.state.event_count - 1].event));
 }
 
 }  // namespace

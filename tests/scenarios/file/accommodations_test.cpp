@@ -25,9 +25,13 @@ TEST(Accommodations, WhatIsGrantedReplacesWhatTheFileSaysAndNothingElse) {
 
 TEST(Accommodations, RefusesNotesAndGrantsThatAreNone) {
   for (const char* text : {"", "-1", "nan", "401", "12 ", "1e9"})
-    EXPECT_THROW(static_cast<void>(granted({}, {{"accommodation.extra_time_percent", text}}, "test")), Error) << text;
-  EXPECT_THROW(static_cast<void>(granted({}, {{"accommodation.left_handed", "yes"}}, "test")), Error);
-  EXPECT_EQ(granted({}, {{"operator", "expert"}, {"accommodation.shoe_size", "43"}}, "test"), Accommodations{});
+    EXPECT_THROW(
+        static_cast<void>(granted({}, {{"accommodation.extra_time_percent", text}}, "test")), Error)
+        << text;
+  EXPECT_THROW(static_cast<void>(granted({}, {{"accommodation.left_handed", "yes"}}, "test")),
+               Error);
+  EXPECT_EQ(granted({}, {{"operator", "expert"}, {"accommodation.shoe_size", "43"}}, "test"),
+            Accommodations{});
   Grant grant;
   grant.extra_time_percent = -5;
   EXPECT_THROW(require_sound(grant, "test"), Error);
@@ -38,7 +42,8 @@ TEST(Accommodations, AreSaidInWords) {
   EXPECT_TRUE(accommodations_text({}).empty());
   const Message all = accommodations_text({25, 60, true, true});
   EXPECT_EQ(figures_in(all), (std::vector<double>{25, 60}));
-  EXPECT_EQ(std::get<List>(all.values().at(0)).items.size(), 3u) << "the time, the hand and the colours";
+  EXPECT_EQ(std::get<List>(all.values().at(0)).items.size(), 3u)
+      << "the time, the hand and the colours";
   EXPECT_EQ(figures_in(accommodations_text({0, 90.5, false, false})), (std::vector<double>{90.5}));
 }
 

@@ -10,8 +10,10 @@ namespace {
 
 TEST(Bodies, ThePageListsThemWithTheirFields) {
   const std::string page = read_text_file(std::string(CAVUM_SOURCE_DIR) + "/docs/scenarios.md");
-  EXPECT_NE(page.find("| body | fields | what |\n| --- | --- | --- |\n" + bodies_as_table() + "\n"), std::string::npos) << "write the table anew:\n"
-                                                                                                                        << bodies_as_table();
+  EXPECT_NE(page.find("| body | fields | what |\n| --- | --- | --- |\n" + bodies_as_table() + "\n"),
+            std::string::npos)
+      << "write the table anew:\n"
+      << bodies_as_table();
 }
 
 }  // namespace

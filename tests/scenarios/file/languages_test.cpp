@@ -1,4 +1,5 @@
-// What a scenario says in other languages: texts by id, mistakes with their place, nothing lost on the way through a recording.
+// What a scenario says in other languages: texts by id, mistakes with their place, nothing lost on
+// the way through a recording.
 #include <gtest/gtest.h>
 
 #include "engine/base/error.h"
@@ -11,7 +12,9 @@ namespace {
 
 using testing_basics::tells;
 
-std::string slot() { return read_text_file(std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/slot.toml"); }
+std::string slot() {
+  return read_text_file(std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/slot.toml");
+}
 
 /// The slot with other languages than its own.
 std::string with(const std::string& languages) {
@@ -26,15 +29,17 @@ std::vector<Message> problems_of(const std::string& text) {
 }
 
 TEST(ScenarioLanguages, EachTextOfAShippedScenarioHasItsGermanOne) {
-  for (const char* name :
-       {"class_1", "class_2", "class_2_neighbour", "cross", "hidden_lesion", "incisor_access", "molar_access", "premolar_access", "slot"}) {
+  for (const char* name : {"class_1", "class_2", "class_2_neighbour", "cross", "hidden_lesion",
+                           "incisor_access", "molar_access", "premolar_access", "slot"}) {
     const std::string file = std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/" + name + ".toml";
     const Scenario s = parse_scenario(read_text_file(file), file);
     ASSERT_TRUE(s.languages.contains("de")) << name;
     const auto& german = s.languages.at("de");
     EXPECT_TRUE(german.contains(s.title) && german.contains(s.description)) << name;
-    for (const auto& step : s.steps) EXPECT_TRUE(german.contains(step.instruction)) << name << " " << step.id;
-    for (const auto& c : s.rubric.criteria) EXPECT_TRUE(german.contains(c.title)) << name << " " << c.id;
+    for (const auto& step : s.steps)
+      EXPECT_TRUE(german.contains(step.instruction)) << name << " " << step.id;
+    for (const auto& c : s.rubric.criteria)
+      EXPECT_TRUE(german.contains(c.title)) << name << " " << c.id;
   }
 }
 
@@ -43,12 +48,16 @@ TEST(ScenarioLanguages, AMistakeIsNamedWithItsPlace) {
   EXPECT_TRUE(tells(problems_of(with("[languages.de]\nsteps.nowhere = \"x\"\n")), "nowhere"));
   EXPECT_TRUE(tells(problems_of(with("[languages.de]\ncriteria.walls = 3\n")), "walls"));
   EXPECT_TRUE(tells(problems_of(with("[languages.de]\ntitel = \"x\"\n")), "titel"));
-  for (const char* wrong : {"[languages.en]\ntitle = \"x\"\n", "[languages.German]\ntitle = \"x\"\n", "[languages]\nde = \"x\"\n"})
-    EXPECT_EQ(read_scenario(with(wrong), "s.toml").problems.at(0).mistake, Mistake::unknown_language) << wrong;
+  for (const char* wrong : {"[languages.en]\ntitle = \"x\"\n",
+                            "[languages.German]\ntitle = \"x\"\n", "[languages]\nde = \"x\"\n"})
+    EXPECT_EQ(read_scenario(with(wrong), "s.toml").problems.at(0).mistake,
+              Mistake::unknown_language)
+        << wrong;
 }
 
 TEST(ScenarioLanguages, WhatAScenarioAsksDoesNotDependOnThem) {
-  const Scenario with_german = parse_scenario(slot(), "s.toml"), without = parse_scenario(with(""), "s.toml");
+  const Scenario with_german = parse_scenario(slot(), "s.toml"),
+                 without = parse_scenario(with(""), "s.toml");
   EXPECT_EQ(with_german.title, without.title);
   EXPECT_TRUE(without.languages.empty());
   EXPECT_EQ(with_german.steps.size(), without.steps.size());

@@ -18,16 +18,21 @@ TEST(Measures, HaveEachItsOwnNameThatEndsInItsUnit) {
   for (const auto& m : measures()) {
     EXPECT_TRUE(names.insert(m.name).second) << m.name;
     EXPECT_FALSE(m.words.empty()) << m.name;
-    const std::string unit = m.unit, ending = unit == "%" ? "_percent" : unit == "N" ? "_n" : unit.empty() ? "" : "_" + unit;
+    const std::string unit = m.unit, ending = unit == "%"    ? "_percent"
+                                              : unit == "N"  ? "_n"
+                                              : unit.empty() ? ""
+                                                             : "_" + unit;
     EXPECT_TRUE(m.name.ends_with(ending)) << m.name << " " << unit;
     if (unit.empty()) {
-      for (const char* other : {"_mm", "_mm3", "_s", "_n", "_deg", "_percent"}) EXPECT_FALSE(m.name.ends_with(other)) << m.name;
+      for (const char* other : {"_mm", "_mm3", "_s", "_n", "_deg", "_percent"})
+        EXPECT_FALSE(m.name.ends_with(other)) << m.name;
     }
   }
 }
 
 TEST(Measures, OfTheFamiliesAreFoundByTheirNames) {
-  // what rubrics of schools name: five walls with four figures each, and those of several walls that were asked for
+  // what rubrics of schools name: five walls with four figures each, and those of several walls
+  // that were asked for
   for (const char* wall : {"mesial", "distal", "buccal", "lingual", "floor"})
     for (const char* figure : {"_mean_mm", "_p95_mm", "_max_over_mm", "_max_under_mm"}) {
       const auto m = find_measure(std::string(wall) + figure);
@@ -35,7 +40,8 @@ TEST(Measures, OfTheFamiliesAreFoundByTheirNames) {
       EXPECT_EQ(m->walls, 1u);
       EXPECT_EQ(m->of_floor, wall == std::string("floor"));
     }
-  for (const char* several : {"side_walls_max_over_mm", "side_walls_max_under_mm", "side_walls_p95_mm", "walls_max_over_mm", "walls_max_under_mm"})
+  for (const char* several : {"side_walls_max_over_mm", "side_walls_max_under_mm",
+                              "side_walls_p95_mm", "walls_max_over_mm", "walls_max_under_mm"})
     EXPECT_TRUE(find_measure(several)) << several;
   EXPECT_FALSE(find_measure("side_walls_mean_mm"));
   EXPECT_FALSE(find_measure("opening_mean_mm"));
@@ -45,7 +51,9 @@ TEST(Measures, OfTheFamiliesAreFoundByTheirNames) {
   ASSERT_TRUE(composite);
   EXPECT_EQ(composite->tissue, "composite");
   EXPECT_STREQ(composite->unit, "mm3");
-  for (const char* none : {"touched_pulp", "touched__mm3", "touched_mm3", "touched_", "canals_covered", ""}) EXPECT_FALSE(find_measure(none)) << none;
+  for (const char* none :
+       {"touched_pulp", "touched__mm3", "touched_mm3", "touched_", "canals_covered", ""})
+    EXPECT_FALSE(find_measure(none)) << none;
   EXPECT_THROW(static_cast<void>(known_measure("touched_pulp")), Error);
 }
 
@@ -86,8 +94,9 @@ TEST(Measures, ATissueWithoutItsUnitIsNoMeasureButWasTakenOnce) {
     FAIL() << "taken";
   } catch (const ProblemsError& e) {
     EXPECT_EQ(e.code(), Mistake::unknown_measure);
-    EXPECT_EQ(e.where(), Message(FilePlace{"r.toml", 5, 10}));
-    EXPECT_TRUE(testing_basics::tells(e.problem(), "touched_pulp") && testing_basics::tells(e.advice(), "touched_pulp_mm3"));
+    EXPECT_EQ(e.where(), Message(FileLocation{"r.toml", 5, 10}));
+    EXPECT_TRUE(testing_basics::tells(e.problem(), "touched_pulp") &&
+                testing_basics::tells(e.advice(), "touched_pulp_mm3"));
   }
 }
 

@@ -12,7 +12,8 @@ struct Pressed {
   std::vector<double> force_n, handle_mm;  ///< by tick
 };
 
-/// A candidate who bores straight down into a half space that is nothing but a spring of `k` and recedes at X/2.02 s, for 6 s.
+/// A candidate who bores straight down into a half space that is nothing but a spring of `k` and
+/// recedes at X/2.02 s, for 6 s.
 Pressed bore(const Skill& skill, double k) {
   Operator hands(skill, {{{0, 0, 1}, false, false}, {{0, 0, -8}, true, false}}, {0, 0, 1}, 1);
   const OmniModel omni;
@@ -23,7 +24,8 @@ Pressed bore(const Skill& skill, double k) {
   Pressed out;
   for (int tick = 0; tick < 6000; ++tick) {
     const Intent intent = hands.act(seen, k_tick_s);
-    const Vec3 tip = advance_omni(omni, skill.hand, device, seen.rendered_force_n, intent.tip_mm, k_tick_s);
+    const Vec3 tip =
+        advance_omni(omni, skill.hand, device, seen.rendered_force_n, intent.tip_mm, k_tick_s);
     const double deep_mm = std::max(0.0, surface_mm - tip.z);
     seen.contact = deep_mm > 0;
     seen.proxy_mm = {tip.x, tip.y, std::max(tip.z, surface_mm)};
@@ -56,7 +58,8 @@ TEST(Operator, DoesNotChatter) {
   double most = 0;
   for (std::size_t i = 3000; i + k_half < pressed.handle_mm.size(); ++i) {
     double mean = 0;
-    for (std::size_t j = i - k_half; j <= i + k_half; ++j) mean += pressed.handle_mm[j] / (2 * k_half + 1);
+    for (std::size_t j = i - k_half; j <= i + k_half; ++j)
+      mean += pressed.handle_mm[j] / (2 * k_half + 1);
     most = std::max(most, std::abs(pressed.handle_mm[i] - mean));
   }
   EXPECT_LT(most, 0.05);

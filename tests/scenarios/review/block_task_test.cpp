@@ -12,7 +12,8 @@ namespace {
 class BlockTask : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(BlockTask, IsSoundWithoutAWarningAndTheExpertHasTwiceTheTime) {
-  const std::string path = std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/new.toml", text = block_task(GetParam());
+  const std::string path = std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/new.toml",
+                    text = block_task(GetParam());
   const CheckedScenario checked = check_whole(text, path);
   for (const auto& p : checked.problems) ADD_FAILURE() << english_text(p.message());
   ASSERT_TRUE(checked.expert.time_s);
@@ -23,12 +24,14 @@ TEST_P(BlockTask, IsSoundWithoutAWarningAndTheExpertHasTwiceTheTime) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, BlockTask, ::testing::ValuesIn(block_task_words()), [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(Every, BlockTask, ::testing::ValuesIn(block_task_words()),
+                         [](const auto& test) { return test.param; });
 
 TEST(BlockTasks, ThatDoNotExistAreRefusedWithTheListOfThoseThatDo) {
   for (const char* task : {"class_2", "lesion", ""}) {
     const auto refused = testing_basics::thrown_by([&] { static_cast<void>(block_task(task)); });
-    for (const auto& word : block_task_words()) EXPECT_TRUE(testing_basics::tells(refused, word)) << task << ": " << word;
+    for (const auto& word : block_task_words())
+      EXPECT_TRUE(testing_basics::tells(refused, word)) << task << ": " << word;
   }
 }
 

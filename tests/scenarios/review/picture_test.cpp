@@ -30,8 +30,10 @@ double height_px(const std::string& svg) {
 
 TEST(Picture, AChannelDrilledFarBelowTheTargetIsShownToItsEnd) {
   const Tooth block = testing::dentin_block(3, 9, 0.1);
-  const Scenario s =
-      parse_scenario(testing::scenario_text("[[zones.target]]\nshape = \"cylinder\"\nat_mm = [0, 0, -1]\nradius_mm = 1\nheight_mm = 2\n"), "s.toml");
+  const Scenario s = parse_scenario(
+      testing::scenario_text(
+          "[[zones.target]]\nshape = \"cylinder\"\nat_mm = [0, 0, -1]\nradius_mm = 1\nheight_mm = 2\n"),
+      "s.toml");
   const ZoneMap zones = build_zones(s, block);
   const auto drawn = [&](double deepest_mm, View view) {
     Octree after = block.octree;
@@ -50,18 +52,23 @@ TEST(Picture, AChannelDrilledFarBelowTheTargetIsShownToItsEnd) {
     const double usual = drawn(-1, view);
     EXPECT_DOUBLE_EQ(drawn(-3, view), usual) << "4 mm below the target are shown anyway";
     EXPECT_NEAR(drawn(-7, view) - usual, (7.0 + 0.6 - 5.0) * k_scale, 0.11 * k_scale);
-    EXPECT_NEAR(drawn(-8.8, view) - usual, (9.0 - 5.0) * k_scale, 0.11 * k_scale) << "to the tooth's end";
+    EXPECT_NEAR(drawn(-8.8, view) - usual, (9.0 - 5.0) * k_scale, 0.11 * k_scale)
+        << "to the tooth's end";
   }
 }
 
 TEST(Picture, TheCrownIsShownToItsTipAlsoFarAboveTheTarget) {
   const Tooth block = testing::dentin_block(3, 6, 0.1);  // its top at z = 0
   const auto drawn = [&](const char* at) {
-    const Scenario s = parse_scenario(
-        testing::scenario_text("[[zones.target]]\nshape = \"box\"\nat_mm = [3, 0, " + std::string(at) + "]\nsize_mm = [2, 1, 1]\n"), "s.toml");
-    return height_px(section_svg(block, nullptr, build_zones(s, block), {View::mesio_distal, 0.01, k_scale, "", false, nullptr}));
+    const Scenario s =
+        parse_scenario(testing::scenario_text("[[zones.target]]\nshape = \"box\"\nat_mm = [3, 0, " +
+                                              std::string(at) + "]\nsize_mm = [2, 1, 1]\n"),
+                       "s.toml");
+    return height_px(section_svg(block, nullptr, build_zones(s, block),
+                                 {View::mesio_distal, 0.01, k_scale, "", false, nullptr}));
   };
-  // the target lies in the block's side, its own top 0.5 or 1 mm below the block's; 4 mm below it are shown, and a little air above the block
+  // the target lies in the block's side, its own top 0.5 or 1 mm below the block's; 4 mm below it
+  // are shown, and a little air above the block
   EXPECT_NEAR(drawn("-1.5") - drawn("-1"), 0.5 * k_scale, 0.11 * k_scale);
 }
 
@@ -76,7 +83,8 @@ std::size_t drawn_in(const std::string& svg, const std::string& colour) {
   return leaves;
 }
 
-/// The steps and colours of the class's tooth in 3D, from its page's source: {from, {over, under}}, the highest first.
+/// The steps and colours of the class's tooth in 3D, from its page's source: {from, {over, under}},
+/// the highest first.
 std::vector<std::pair<double, std::pair<std::string, std::string>>> bands_of_the_page() {
   const std::string source = read_text_file(CAVUM_SOURCE_DIR "/ui/report/page/src/deviation.ts");
   const auto list = [&](const std::string& name) {
@@ -88,14 +96,17 @@ std::vector<std::pair<double, std::pair<std::string, std::string>>> bands_of_the
   const auto edges = list("k_heat_edges"), over = list("k_over"), under = list("k_under");
   std::vector<std::pair<double, std::pair<std::string, std::string>>> bands;
   for (std::size_t i = edges.size(); i-- > 0;)
-    bands.push_back({100.0 * edges[i].get<double>(), {over.at(i).get<std::string>(), under.at(i).get<std::string>()}});
+    bands.push_back({100.0 * edges[i].get<double>(),
+                     {over.at(i).get<std::string>(), under.at(i).get<std::string>()}});
   return bands;
 }
 
 TEST(Picture, HowManyCutWronglyIsDrawnLeafByLeafInItsBand) {
   const Tooth block = testing::dentin_block(3, 5, 0.1);
-  const Scenario s =
-      parse_scenario(testing::scenario_text("[[zones.target]]\nshape = \"cylinder\"\nat_mm = [0, 0, -1]\nradius_mm = 1\nheight_mm = 2\n"), "s.toml");
+  const Scenario s = parse_scenario(
+      testing::scenario_text(
+          "[[zones.target]]\nshape = \"cylinder\"\nat_mm = [0, 0, -1]\nradius_mm = 1\nheight_mm = 2\n"),
+      "s.toml");
   const ZoneMap zones = build_zones(s, block);
   const Octree& tree = block.octree;
   const int low_z = tree.leaf_at({0.01, 0.01, -4.9}).z;
@@ -123,23 +134,30 @@ TEST(Picture, HowManyCutWronglyIsDrawnLeafByLeafInItsBand) {
     // the section's window may begin a few rows higher than the block
     EXPECT_GT(drawn_in(svg, colour), 0u) << colour;
     EXPECT_LE(drawn_in(svg, colour), leaves) << colour;
-    EXPECT_EQ(drawn_in(svg, colour) * expected.begin()->second, leaves * drawn_in(svg, expected.begin()->first)) << "the same share of each column";
+    EXPECT_EQ(drawn_in(svg, colour) * expected.begin()->second,
+              leaves * drawn_in(svg, expected.begin()->first))
+        << "the same share of each column";
     EXPECT_NE(key.find(colour), std::string::npos) << "the key names it";
   }
 }
 
 TEST(Picture, InALanguageOfLongWordsNoEntryOfAKeyRunsIntoTheNext) {
-  const auto twice_as_long = [](const Message& words) { return english_text(words) + ", " + english_text(words); };
+  const auto twice_as_long = [](const Message& words) {
+    return english_text(words) + ", " + english_text(words);
+  };
   constexpr double k_letter_px = 6.0;  // of 12 px type, on the average
-  for (const std::string& key : legend_parts_svg(testing::dentin_block(2, 2, 0.2), true, false, twice_as_long)) {
+  for (const std::string& key :
+       legend_parts_svg(testing::dentin_block(2, 2, 0.2), true, false, twice_as_long)) {
     double width = 0;
     ASSERT_EQ(std::sscanf(key.c_str() + key.find("width='"), "width='%lf", &width), 1);
     std::vector<std::array<double, 3>> entries;  // x, y, end
-    for (std::size_t at = key.find("<text"); at != std::string::npos; at = key.find("<text", at + 1)) {
+    for (std::size_t at = key.find("<text"); at != std::string::npos;
+         at = key.find("<text", at + 1)) {
       double x = 0, y = 0;
       ASSERT_EQ(std::sscanf(key.c_str() + at, "<text x='%lf' y='%lf'", &x, &y), 2);
       double letters = 0;
-      for (std::size_t i = key.find('>', at) + 1; key[i] != '<'; ++i) letters += (key[i] & 0xC0) != 0x80 ? 1 : 0;  // of UTF-8
+      for (std::size_t i = key.find('>', at) + 1; key[i] != '<'; ++i)
+        letters += (key[i] & 0xC0) != 0x80 ? 1 : 0;  // of UTF-8
       entries.push_back({x, y, x + k_letter_px * letters});
     }
     ASSERT_FALSE(entries.empty());
@@ -155,12 +173,14 @@ TEST(Picture, InALanguageOfLongWordsNoEntryOfAKeyRunsIntoTheNext) {
 TEST(Picture, TheKeyNamesWhatStandsBesideTheToothWhereAnythingDoes) {
   Tooth tooth = testing::dentin_block(2, 2, 0.2);
   const std::string alone = legend_svg(tooth, true);
-  for (const std::uint8_t tissue : {k_gingiva, k_neighbour_enamel}) EXPECT_EQ(alone.find(tissue_colour(tissue)), std::string::npos);
+  for (const std::uint8_t tissue : {k_gingiva, k_neighbour_enamel})
+    EXPECT_EQ(alone.find(tissue_colour(tissue)), std::string::npos);
   tooth.tissues.push_back({k_neighbour_enamel, "neighbour_enamel", true});
   tooth.tissues.push_back({k_gingiva, "gingiva", true});
   const std::string beside = legend_svg(tooth, true);
   for (const std::uint8_t tissue : {k_gingiva, k_neighbour_enamel})
-    EXPECT_NE(beside.find(tissue_colour(tissue)), std::string::npos) << "in the colour of the sections";
+    EXPECT_NE(beside.find(tissue_colour(tissue)), std::string::npos)
+        << "in the colour of the sections";
   EXPECT_GT(height_px(beside), height_px(alone)) << "in a row of its own";
   const auto parts = legend_parts_svg(tooth, true);
   ASSERT_EQ(parts.size(), 4u);

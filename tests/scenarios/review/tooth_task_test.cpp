@@ -17,14 +17,18 @@
 namespace cavum::scenarios {
 namespace {
 
-std::string file_of(const char* tooth) { return testing_basics::data_path(std::string("teeth/") + tooth); }
+std::string file_of(const char* tooth) {
+  return testing_basics::data_path(std::string("teeth/") + tooth);
+}
 
 TEST(ToothTask, AFrontToothAndABlockAreOfferedWhatMakesSense) {
-  for (const auto& [file, least, most] : {std::tuple("lower_molar.cvt", 11, 11), std::tuple("upper_premolar.cvt", 11, 11),
-                                          std::tuple("upper_incisor.cvt", 6, 6), std::tuple("block.cvt", 0, 1)}) {
+  for (const auto& [file, least, most] :
+       {std::tuple("lower_molar.cvt", 11, 11), std::tuple("upper_premolar.cvt", 11, 11),
+        std::tuple("upper_incisor.cvt", 6, 6), std::tuple("block.cvt", 0, 1)}) {
     const Tooth tooth = load_tooth_file(file_of(file));
     int offered = 0;
-    for (const auto& t : offered_tasks(tooth, find_landmarks(tooth))) offered += t.why_not.empty() ? 1 : 0;
+    for (const auto& t : offered_tasks(tooth, find_landmarks(tooth)))
+      offered += t.why_not.empty() ? 1 : 0;
     EXPECT_GE(offered, least) << file;
     EXPECT_LE(offered, most) << file;
   }
@@ -39,13 +43,15 @@ TEST(ToothTask, EveryTaskHasItsTextsAndEveryTextItsTask) {
 }
 
 TEST(ToothTask, WhatIsWrittenIsSoundAndFollowsTheLandmarks) {
-  for (const auto& [file, task, relation] : {std::tuple("lower_molar.cvt", "class_1", "kind = \"fissure\", width_mm = 1.4"),
-                                             std::tuple("upper_premolar.cvt", "slot_mesial", "shape = \"proximal_box\"\nside"),
-                                             std::tuple("upper_incisor.cvt", "access", "lean = \"lingual\""),
-                                             std::tuple("lower_molar.cvt", "class_5", "shape = \"side_cavity\"\nside = \"buccal\""),
-                                             std::tuple("upper_incisor.cvt", "dexterity_cross", "heights = \"level\"")}) {
+  for (const auto& [file, task, relation] :
+       {std::tuple("lower_molar.cvt", "class_1", "kind = \"fissure\", width_mm = 1.4"),
+        std::tuple("upper_premolar.cvt", "slot_mesial", "shape = \"proximal_box\"\nside"),
+        std::tuple("upper_incisor.cvt", "access", "lean = \"lingual\""),
+        std::tuple("lower_molar.cvt", "class_5", "shape = \"side_cavity\"\nside = \"buccal\""),
+        std::tuple("upper_incisor.cvt", "dexterity_cross", "heights = \"level\"")}) {
     const Tooth tooth = load_tooth_file(file_of(file));
-    const WrittenTask written = write_tooth_task(tooth, find_landmarks(tooth), file_of(file), "here.toml", task);
+    const WrittenTask written =
+        write_tooth_task(tooth, find_landmarks(tooth), file_of(file), "here.toml", task);
     const CheckedScenario checked = check_whole(written.text, "here.toml");
     EXPECT_TRUE(checked.sound()) << file << " " << task;
     EXPECT_GE(checked.expert.reach, 0.895) << file << " " << task;
@@ -93,7 +99,8 @@ TEST(RidgeMargins, TakeInThePitsAndLeaveTheCrests) {
 
 TEST(RidgeMargins, ACrestThatRunsIntoTheFissureIsNoRidgeThatIsLeft) {
   Landmarks l = straight_fissure();
-  l.mesial_ridge.crest_mm = {{5, 2, 1}, {5, 0, 0.5}, {3, 0.5, 0}, {2, 1.0, 0.5}};  // down a cusp, into the fossa
+  l.mesial_ridge.crest_mm = {
+      {5, 2, 1}, {5, 0, 0.5}, {3, 0.5, 0}, {2, 1.0, 0.5}};  // down a cusp, into the fossa
   const auto margins = ridge_margins(l, 1.4, 0);
   EXPECT_TRUE(margins.may.empty());
   EXPECT_EQ(testing_basics::figures_in(margins.why_none).size(), 1u) << "how near the ridge comes";
@@ -104,7 +111,10 @@ TEST(ToothTask, WhatIsGuessedOfTheToothStandsInTheTask) {
   Tooth tooth = load_tooth_file(file_of("upper_premolar.cvt"));
   tooth.notes.push_back({ToothNote::Kind::guess, Name{"by three signs"}});
   tooth.notes.push_back({ToothNote::Kind::warning, Name{"is it tooth 15"}});
-  const std::string text = write_tooth_task(tooth, find_landmarks(tooth), file_of("upper_premolar.cvt"), "here.toml", "slot_mesial").text;
+  const std::string text =
+      write_tooth_task(tooth, find_landmarks(tooth), file_of("upper_premolar.cvt"), "here.toml",
+                       "slot_mesial")
+          .text;
   EXPECT_NE(text.find(": by three signs\n"), std::string::npos) << text;
   EXPECT_NE(text.find(": is it tooth 15\n"), std::string::npos) << text;
 }
@@ -112,18 +122,25 @@ TEST(ToothTask, WhatIsGuessedOfTheToothStandsInTheTask) {
 TEST(ToothTask, WhatIsWrittenHasItsWordsInAnotherLanguageToo) {
   const Tooth tooth = load_tooth_file(file_of("lower_molar.cvt"));
   const TaskLanguage shout{"qps", [](const Message& m) { return "\"" + english_text(m) + "\""; }};
-  const std::string text = write_tooth_task(tooth, find_landmarks(tooth), file_of("lower_molar.cvt"), "here.toml", "class_1", {}, shout).text;
+  const std::string text =
+      write_tooth_task(tooth, find_landmarks(tooth), file_of("lower_molar.cvt"), "here.toml",
+                       "class_1", {}, shout)
+          .text;
   const Scenario s = parse_scenario(text, "here.toml");
   ASSERT_EQ(s.languages.count("qps"), 1u);
   const auto& words = s.languages.at("qps");
-  for (const std::string& english : {s.title, s.description, s.steps.at(0).instruction, s.rubric.criteria.at(0).title})
+  for (const std::string& english :
+       {s.title, s.description, s.steps.at(0).instruction, s.rubric.criteria.at(0).title})
     EXPECT_EQ(words.at(english), "\"" + english + "\"");
 }
 
 TEST(ToothTask, WhatMakesNoSenseIsRefused) {
   const Tooth incisor = load_tooth_file(file_of("upper_incisor.cvt"));
-  EXPECT_THROW(static_cast<void>(write_tooth_task(incisor, find_landmarks(incisor), "i.cvt", "here.toml", "class_1")), Error);
-  EXPECT_THROW(static_cast<void>(write_tooth_task(incisor, {}, "i.cvt", "here.toml", "class_9")), Error);
+  EXPECT_THROW(static_cast<void>(write_tooth_task(incisor, find_landmarks(incisor), "i.cvt",
+                                                  "here.toml", "class_1")),
+               Error);
+  EXPECT_THROW(static_cast<void>(write_tooth_task(incisor, {}, "i.cvt", "here.toml", "class_9")),
+               Error);
 }
 
 TEST(ToothTask, ATaskThatNoBurReachesEnoughOfIsRefused) {
@@ -132,8 +149,10 @@ TEST(ToothTask, ATaskThatNoBurReachesEnoughOfIsRefused) {
   const Tooth tooth = make_premolar(shape);
   const testing_basics::Folder folder;
   save_tooth_file(tooth, folder.file("p.cvt"));
-  EXPECT_EQ(testing_basics::code_of(
-                [&] { static_cast<void>(write_tooth_task(tooth, find_landmarks(tooth), folder.file("p.cvt"), "here.toml", "dexterity_groove")); }),
+  EXPECT_EQ(testing_basics::code_of([&] {
+              static_cast<void>(write_tooth_task(tooth, find_landmarks(tooth), folder.file("p.cvt"),
+                                                 "here.toml", "dexterity_groove"));
+            }),
             Mistake::unreachable);
 }
 

@@ -1,5 +1,5 @@
-// Zones from STL files: a box as triangles is the box shape leaf by leaf, whatever its pose, text or binary; cavities and overlaps of a mesh;
-// what an exam keeps of it.
+// Zones from STL files: a box as triangles is the box shape leaf by leaf, whatever its pose, text
+// or binary; cavities and overlaps of a mesh; what an exam keeps of it.
 #include "scenarios/zones/mesh_body.h"
 
 #include <gtest/gtest.h>
@@ -23,13 +23,16 @@ using testing::scenario_text;
 using testing_basics::Folder;
 
 /// The six faces of a box between two corners of a frame, looking outwards.
-TriangleMesh box_mesh(Vec3 low, Vec3 high, Vec3 at = {}, Vec3 x = {1, 0, 0}, Vec3 y = {0, 1, 0}, Vec3 z = {0, 0, 1}) {
+TriangleMesh box_mesh(Vec3 low, Vec3 high, Vec3 at = {}, Vec3 x = {1, 0, 0}, Vec3 y = {0, 1, 0},
+                      Vec3 z = {0, 0, 1}) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i) {
-    const Vec3 p{(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z};
+    const Vec3 p{(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y,
+                 (i & 4) != 0 ? high.z : low.z};
     mesh.vertices_mm.push_back(at + x * p.x + y * p.y + z * p.z);
   }
-  constexpr std::array<std::array<std::uint32_t, 4>, 6> k_faces{{{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+  constexpr std::array<std::array<std::uint32_t, 4>, 6> k_faces{
+      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
   for (const auto& f : k_faces) {
     mesh.triangles.push_back({f[0], f[1], f[2]});
     mesh.triangles.push_back({f[0], f[2], f[3]});
@@ -41,8 +44,9 @@ void append(TriangleMesh& mesh, const TriangleMesh& more, bool inwards = false) 
   const auto first = static_cast<std::uint32_t>(mesh.vertices_mm.size());
   mesh.vertices_mm.insert(mesh.vertices_mm.end(), more.vertices_mm.begin(), more.vertices_mm.end());
   for (const auto& t : more.triangles)
-    mesh.triangles.push_back(inwards ? std::array<std::uint32_t, 3>{first + t[0], first + t[2], first + t[1]}
-                                     : std::array<std::uint32_t, 3>{first + t[0], first + t[1], first + t[2]});
+    mesh.triangles.push_back(
+        inwards ? std::array<std::uint32_t, 3>{first + t[0], first + t[2], first + t[1]}
+                : std::array<std::uint32_t, 3>{first + t[0], first + t[1], first + t[2]});
 }
 
 std::string as_text(const TriangleMesh& mesh) {
@@ -51,7 +55,9 @@ std::string as_text(const TriangleMesh& mesh) {
   s << "solid zone\n";
   for (const auto& t : mesh.triangles) {
     s << "facet normal 0 0 0\n outer loop\n";
-    for (const auto i : t) s << "  vertex " << mesh.vertices_mm[i].x << ' ' << mesh.vertices_mm[i].y << ' ' << mesh.vertices_mm[i].z << '\n';
+    for (const auto i : t)
+      s << "  vertex " << mesh.vertices_mm[i].x << ' ' << mesh.vertices_mm[i].y << ' '
+        << mesh.vertices_mm[i].z << '\n';
     s << " endloop\nendfacet\n";
   }
   s << "endsolid zone\n";
@@ -84,31 +90,40 @@ TEST_F(MeshZone, ABoxOfTrianglesIsTheBoxShapeAtAnyPose) {
   for (int pose = 0; pose < 12; ++pose) {
     const Vec3 at{random.uniform(-0.8, 0.8), random.uniform(-0.8, 0.8), random.uniform(-1, 0)};
     const Vec3 size{random.uniform(0.6, 2.5), random.uniform(0.6, 2.5), random.uniform(0.6, 2.5)};
-    const Vec3 axis = pose == 0 ? Vec3{0, 0, 1} : normalized(Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.2, 1)});
+    const Vec3 axis = pose == 0 ? Vec3{0, 0, 1}
+                                : normalized(Vec3{random.uniform(-1, 1), random.uniform(-1, 1),
+                                                  random.uniform(0.2, 1)});
     const double turn = pose == 0 ? 0 : random.uniform(-180, 180);
     std::ostringstream shape;
     shape.precision(17);
-    shape << "[[zones.target]]\nshape = \"box\"\nat_mm = [" << at.x << ", " << at.y << ", " << at.z << "]\nsize_mm = [" << size.x << ", " << size.y
-          << ", " << size.z << "]\naxis = [" << axis.x << ", " << axis.y << ", " << axis.z << "]\nturn_deg = " << turn << "\n";
+    shape << "[[zones.target]]\nshape = \"box\"\nat_mm = [" << at.x << ", " << at.y << ", " << at.z
+          << "]\nsize_mm = [" << size.x << ", " << size.y << ", " << size.z << "]\naxis = ["
+          << axis.x << ", " << axis.y << ", " << axis.z << "]\nturn_deg = " << turn << "\n";
     // the frame of README.md: x of the tooth laid across the axis, then turned about it
-    const Vec3 x0 = std::fabs(axis.x) < 0.9 ? normalized(Vec3{1, 0, 0} - axis * axis.x) : normalized(Vec3{0, 1, 0} - axis * axis.y);
+    const Vec3 x0 = std::fabs(axis.x) < 0.9 ? normalized(Vec3{1, 0, 0} - axis * axis.x)
+                                            : normalized(Vec3{0, 1, 0} - axis * axis.y);
     const Vec3 y0 = cross(axis, x0);
     const SinCos t = det_sincos(turn * k_pi / 180);
-    const TriangleMesh mesh = box_mesh(size * -0.5, size * 0.5, at, x0 * t.cos + y0 * t.sin, y0 * t.cos - x0 * t.sin, axis);
+    const TriangleMesh mesh = box_mesh(size * -0.5, size * 0.5, at, x0 * t.cos + y0 * t.sin,
+                                       y0 * t.cos - x0 * t.sin, axis);
     write_mesh_file(mesh, stl());
-    const Scenario of_box = parse_scenario(scenario_text(shape.str()), "s.toml"), of_mesh = scenario();
+    const Scenario of_box = parse_scenario(scenario_text(shape.str()), "s.toml"),
+                   of_mesh = scenario();
     ShapeMaker maker(block, "s.toml");
     const auto box = maker.make(of_box.zones.target), body = maker.make(of_mesh.zones.target);
     const ZoneMap exact = build_zones(of_box, block), ours = build_zones(of_mesh, block);
     ASSERT_EQ(exact.low(), ours.low());
     ASSERT_EQ(exact.size(), ours.size());
     exact.for_each_leaf([&](IVec3 l, Zone) {
-      const double a = box->distance_mm(exact.centre_mm(l)), b = body->distance_mm(exact.centre_mm(l));
-      if (std::fabs(a) < (MeshBody::k_exact_leaves - 0.01) * leaf) worst = std::max(worst, std::fabs(a - b));
+      const double a = box->distance_mm(exact.centre_mm(l)),
+                   b = body->distance_mm(exact.centre_mm(l));
+      if (std::fabs(a) < (MeshBody::k_exact_leaves - 0.01) * leaf)
+        worst = std::max(worst, std::fabs(a - b));
       if (std::fabs(a) <= 1e-5) return;
       EXPECT_EQ(a < 0, b < 0) << "pose " << pose;
       EXPECT_EQ(exact.zone(l) == Zone::target, ours.zone(l) == Zone::target) << "pose " << pose;
-      EXPECT_NEAR(exact.distance_mm(l), ours.distance_mm(l), k_distance_bound_leaves * leaf) << "pose " << pose;
+      EXPECT_NEAR(exact.distance_mm(l), ours.distance_mm(l), k_distance_bound_leaves * leaf)
+          << "pose " << pose;
     });
   }
   EXPECT_LE(worst, 1e-6) << "the same surface gives the same distances, but for corners of 32 bits";
@@ -122,12 +137,15 @@ TEST_F(MeshZone, TextAndBinaryAreTheSameZone) {
   write_text_file(stl(), as_text(mesh));
   const ZoneMap text = build_zones(scenario(), block);
   EXPECT_EQ(binary.counts(), text.counts());
-  EXPECT_EQ(binary.count(Zone::target), 20u * 10u * 10u);  // its lower half, whole leaves; corners and diagonals run through centres of leaves
+  EXPECT_EQ(binary.count(Zone::target),
+            20u * 10u * 10u);  // its lower half, whole leaves; corners and diagonals run through
+                               // centres of leaves
 }
 
 TEST_F(MeshZone, LinesThroughEdgesAndCornersAreCountedOnce) {
   const Tooth block = dentin_block(2, 2, 0.1);
-  // faces in planes of leaf centres and diagonals through them: every way of hitting an edge or a corner
+  // faces in planes of leaf centres and diagonals through them: every way of hitting an edge or a
+  // corner
   const double c = 0.05;
   const ZoneMap zones = zones_of(box_mesh({-1 + c, -1 + c, -1}, {1 - c, 1 - c, 1}), block);
   const std::uint64_t n = zones.count(Zone::target) / 10;
@@ -142,7 +160,8 @@ TEST_F(MeshZone, CavitiesAreOutsideAndOverlapsInside) {
   EXPECT_EQ(zones_of(hollow, block).count(Zone::target), 40u * 40u * 20u - 20u * 20u * 10u);
   TriangleMesh two = box_mesh({-2, -1, -1}, {0.5, 1, 0.5});
   append(two, box_mesh({-0.5, -1, -2}, {2, 1, 0.5}));
-  EXPECT_EQ(zones_of(two, block).count(Zone::target), 25u * 20u * 10u + 25u * 20u * 20u - 10u * 20u * 10u);
+  EXPECT_EQ(zones_of(two, block).count(Zone::target),
+            25u * 20u * 10u + 25u * 20u * 20u - 10u * 20u * 10u);
 }
 
 TEST_F(MeshZone, FacesThatLookInwardsAreTurned) {
@@ -168,7 +187,8 @@ TEST_F(MeshZone, WhatASessionHoldsIsUsedAndAnotherFileOfTheNameRefused) {
   EXPECT_NO_THROW(require_same_surfaces(scenario(), recorded));
 
   write_mesh_file(box_mesh({-1, -1, -1}, {1, 1, 1.01}), stl());
-  const auto refused = testing_basics::thrown_by([&] { require_same_surfaces(scenario(), recorded); });
+  const auto refused =
+      testing_basics::thrown_by([&] { require_same_surfaces(scenario(), recorded); });
   EXPECT_EQ(testing_basics::code_of(refused), Mistake::surface);
   EXPECT_TRUE(testing_basics::place_of(refused).ends_with("s.toml:22:8"));
   EXPECT_TRUE(testing_basics::tells(refused, "zones/body.stl"));

@@ -1,5 +1,5 @@
-// A cavity in a crown's side, on a round tooth whose surface is known: where its axial wall lies, that its outline bends with the neck, and which
-// wall is which.
+// A cavity in a crown's side, on a round tooth whose surface is known: where its axial wall lies,
+// that its outline bends with the neck, and which wall is which.
 #include <gtest/gtest.h>
 
 #include "engine/base/error.h"
@@ -16,13 +16,17 @@ using testing::scenario_text;
 
 constexpr double k_side_radius_mm = 4, k_side_neck_mm = -5, k_depth_mm = 1.2, k_side_leaf_mm = 0.05;
 
-ZoneMap cavity(const std::string& more, const Landmarks& landmarks, const std::string& side = "buccal") {
+ZoneMap cavity(const std::string& more, const Landmarks& landmarks,
+               const std::string& side = "buccal") {
   return build_zones(
-      parse_scenario(scenario_text("[[zones.target]]\nshape = \"side_cavity\"\nside = \"" + side + "\"\ndepth_mm = 1.2\n" + more), "s.toml"),
+      parse_scenario(scenario_text("[[zones.target]]\nshape = \"side_cavity\"\nside = \"" + side +
+                                   "\"\ndepth_mm = 1.2\n" + more),
+                     "s.toml"),
       round_tooth(k_side_radius_mm, -6, k_side_leaf_mm), landmarks);
 }
 
-constexpr const char* k_box = "outline = { kind = \"polygon\", points_mm = [[-2, 1], [2, 1], [2, 3], [-2, 3]] }\n";
+constexpr const char* k_box =
+    "outline = { kind = \"polygon\", points_mm = [[-2, 1], [2, 1], [2, 3], [-2, 3]] }\n";
 
 TEST(SideCavity, ItsAxialWallFollowsTheSurfaceAtItsDepth) {
   const ZoneMap zones = cavity(k_box, round_landmarks(k_side_radius_mm, k_side_neck_mm));
@@ -44,8 +48,10 @@ TEST(SideCavity, HasTheVolumeOfTheRingThatItIs) {
   const double inner = k_side_radius_mm - k_depth_mm;
   double mm2 = 0;
   for (double x = -1.9995; x < 2; x += 0.001)
-    mm2 += 0.001 * (std::sqrt(k_side_radius_mm * k_side_radius_mm - x * x) - std::sqrt(inner * inner - x * x));
-  const double mm3 = static_cast<double>(zones.target_shares()) / ZoneMap::k_share_units * zones.leaf_volume_mm3();
+    mm2 += 0.001 * (std::sqrt(k_side_radius_mm * k_side_radius_mm - x * x) -
+                    std::sqrt(inner * inner - x * x));
+  const double mm3 =
+      static_cast<double>(zones.target_shares()) / ZoneMap::k_share_units * zones.leaf_volume_mm3();
   EXPECT_NEAR(mm3, 2 * mm2, 0.01 * 2 * mm2);
 }
 
@@ -65,8 +71,10 @@ TEST(SideCavity, ItsWallsAreToldAsSeenFromTheSide) {
 }
 
 TEST(SideCavity, BendsWithTheNeckUnlessHeightsAreLevel) {
-  const Landmarks wavy = round_landmarks(k_side_radius_mm, k_side_neck_mm, 2.0);  // the neck rises by 2 (x/4)²
-  const ZoneMap bent = cavity(k_box, wavy), level = cavity(std::string("heights = \"level\"\n") + k_box, wavy);
+  const Landmarks wavy =
+      round_landmarks(k_side_radius_mm, k_side_neck_mm, 2.0);  // the neck rises by 2 (x/4)²
+  const ZoneMap bent = cavity(k_box, wavy),
+                level = cavity(std::string("heights = \"level\"\n") + k_box, wavy);
   for (const double x : {-1.6, 0.0, 1.6}) {
     const double rise = 2.0 * x * x / 16, y = std::sqrt(3.4 * 3.4 - x * x);
     // the level of the gingival wall: where the distance changes its sign going up
@@ -85,12 +93,18 @@ TEST(SideCavity, FromLingualIsTheMirrorImage) {
   const ZoneMap buccal = cavity(k_box, l), lingual = cavity(k_box, l, "lingual");
   EXPECT_LT(length(lingual.approach() - Vec3{0, -1, 0}), 1e-9);
   EXPECT_EQ(buccal.count(Zone::target), lingual.count(Zone::target));
-  for (const Zone z : {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom})  // ties at 45 degrees fall either way
-    EXPECT_NEAR(static_cast<double>(buccal.count(z)), static_cast<double>(lingual.count(z)), 0.02 * static_cast<double>(buccal.count(z)));
-  for (const double y : {2.5, 2.8, 3.3, 3.9}) EXPECT_NEAR(buccal.distance_mm(Vec3{0.3, y, -3}), lingual.distance_mm(Vec3{0.3, -y, -3}), 1e-3) << y;
+  for (const Zone z : {Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides,
+                       Zone::container_bottom})  // ties at 45 degrees fall either way
+    EXPECT_NEAR(static_cast<double>(buccal.count(z)), static_cast<double>(lingual.count(z)),
+                0.02 * static_cast<double>(buccal.count(z)));
+  for (const double y : {2.5, 2.8, 3.3, 3.9})
+    EXPECT_NEAR(buccal.distance_mm(Vec3{0.3, y, -3}), lingual.distance_mm(Vec3{0.3, -y, -3}), 1e-3)
+        << y;
 }
 
-TEST(SideCavity, IsRefusedWithoutANeck) { EXPECT_THROW(static_cast<void>(cavity(k_box, {})), Error); }
+TEST(SideCavity, IsRefusedWithoutANeck) {
+  EXPECT_THROW(static_cast<void>(cavity(k_box, {})), Error);
+}
 
 }  // namespace
 }  // namespace cavum::scenarios

@@ -14,14 +14,16 @@ using testing_ui::Ran;
 class RigVerbs : public testing_ui::Program {};
 
 TEST_F(RigVerbs, CubeWritesFiguresPictureAndRecordings) {
-  const Ran r = run("rig cube --runs 1 --k 0.4,0.8 --model consistent --json --out " + path("c.svg") + " --csv " + path("c.csv"));
+  const Ran r = run("rig cube --runs 1 --k 0.4,0.8 --model consistent --json --out " +
+                    path("c.svg") + " --csv " + path("c.csv"));
   ASSERT_EQ(r.exit_code, 0) << r.err;
   const json j = json::parse(r.out);
   EXPECT_EQ(j["experiment"], "cube");
   ASSERT_EQ(j["sets"].size(), 1u);
   const json& rows = j["sets"][0]["rows"];
   ASSERT_EQ(rows.size(), 2u);
-  for (const char* key : {"k_n_per_mm", "c_n_s_per_mm", "mean_n", "sd_n", "without_friction_mean_n", "closed_form_n", "eq_6_n", "left_out"})
+  for (const char* key : {"k_n_per_mm", "c_n_s_per_mm", "mean_n", "sd_n", "without_friction_mean_n",
+                          "closed_form_n", "eq_6_n", "left_out"})
     EXPECT_TRUE(rows[0].contains(key)) << key;
   EXPECT_DOUBLE_EQ(j["eq_6"]["slope_mm"], 0.505);
   EXPECT_TRUE(j["reading"].is_string());
@@ -32,12 +34,15 @@ TEST_F(RigVerbs, CubeWritesFiguresPictureAndRecordings) {
 }
 
 TEST_F(RigVerbs, ToothComputesThePapersConstants) {
-  ASSERT_EQ(std::system((std::string(CAVUM_BINARY) +
-                         " tooth make block --size-mm 4,4,3 --layers enamel:0.4,dentin:0.4,pulp:1.5,dentin:0.7 --leaf-mm 0.05 --out " +
-                         path("b.cvt") + " >" + path("made"))
-                            .c_str()),
-            0);
-  const Ran r = run("rig tooth --tooth " + path("b.cvt") + " --runs 2 --json --out " + path("t.svg"));
+  ASSERT_EQ(
+      std::system(
+          (std::string(CAVUM_BINARY) +
+           " tooth make block --size-mm 4,4,3 --layers enamel:0.4,dentin:0.4,pulp:1.5,dentin:0.7 --leaf-mm 0.05 --out " +
+           path("b.cvt") + " >" + path("made"))
+              .c_str()),
+      0);
+  const Ran r =
+      run("rig tooth --tooth " + path("b.cvt") + " --runs 2 --json --out " + path("t.svg"));
   ASSERT_EQ(r.exit_code, 0) << r.err;
   const json j = json::parse(r.out);
   EXPECT_NEAR(j["paper"]["c_at_k_0_8_n_s_per_mm"], 1.789, 5e-4);
@@ -48,7 +53,9 @@ TEST_F(RigVerbs, ToothComputesThePapersConstants) {
 }
 
 TEST_F(RigVerbs, PressOfASingleCellSaysWhetherItIsWithinTheLimits) {
-  const Ran r = run("rig press --k 0.8 --c paper --delay 1 --hand 300 --press 1 --speed 20 --json --out " + path("p.svg"));
+  const Ran r =
+      run("rig press --k 0.8 --c paper --delay 1 --hand 300 --press 1 --speed 20 --json --out " +
+          path("p.svg"));
   ASSERT_EQ(r.exit_code, 0) << r.out << r.err;
   const json j = json::parse(r.out);
   EXPECT_TRUE(j["within_limits"]);
@@ -72,25 +79,26 @@ TEST_F(RigVerbs, GrindSaysHowFastEachTissueGoesUnderALoad) {
 
 TEST_F(RigVerbs, BadInputIsRefusedInOneLineThatSaysWhatToDo) {
   write_text_file(path("bad.toml"), "name = \"bad\"\n[cutting]\nrpm_ref = -1\n");
-  for (const auto& [verb, named] :
-       std::vector<std::pair<std::string, std::string>>{{"cube --out " + path("c.png"), "c.png"},
-                                                        {"cube --out " + path("no/folder/c.svg"), "c.svg"},
-                                                        {"cube --k 0.4 --csv " + path("c.csv"), "--csv-k"},
-                                                        {"cube --model nothing", "nothing.toml"},
-                                                        {"cube --runs 0", "--runs"},
-                                                        {"cube --k -1", "--k"},
-                                                        {"tooth --tooth " + path("nothing.cvt"), "nothing.cvt"},
-                                                        {"tooth --at 40,0 --tooth " + testing_basics::data_path("teeth/lower_molar.cvt"), ""},
-                                                        {"press --c strong", "'strong'"},
-                                                        {"press --k 0", "--k"},
-                                                        {"servo --seconds nan --out " + path("s.cavum"), "'nan'"},
-                                                        {"servo", "--out"},
-                                                        {"grind --load-n 0", "--load-n"},
-                                                        {"cube --model clinical", "clinical"},
-                                                        {"tooth --model clinical", "clinical"},
-                                                        {"tooth --model " + path("bad.toml"), "bad.toml:3"}})
+  for (const auto& [verb, named] : std::vector<std::pair<std::string, std::string>>{
+           {"cube --out " + path("c.png"), "c.png"},
+           {"cube --out " + path("no/folder/c.svg"), "c.svg"},
+           {"cube --k 0.4 --csv " + path("c.csv"), "--csv-k"},
+           {"cube --model nothing", "nothing.toml"},
+           {"cube --runs 0", "--runs"},
+           {"cube --k -1", "--k"},
+           {"tooth --tooth " + path("nothing.cvt"), "nothing.cvt"},
+           {"tooth --at 40,0 --tooth " + testing_basics::data_path("teeth/lower_molar.cvt"), ""},
+           {"press --c strong", "'strong'"},
+           {"press --k 0", "--k"},
+           {"servo --seconds nan --out " + path("s.cavum"), "'nan'"},
+           {"servo", "--out"},
+           {"grind --load-n 0", "--load-n"},
+           {"cube --model clinical", "clinical"},
+           {"tooth --model clinical", "clinical"},
+           {"tooth --model " + path("bad.toml"), "bad.toml:3"}})
     expect_refused("rig " + verb, {named});
-  for (const char* nan : {"cube --k nan", "cube --csv-k nan", "tooth --spread-mm nan", "press --press nan", "press --hand nan", "press --k nan"})
+  for (const char* nan : {"cube --k nan", "cube --csv-k nan", "tooth --spread-mm nan",
+                          "press --press nan", "press --hand nan", "press --k nan"})
     expect_refused(std::string("rig ") + nan, {"'nan'"});
 }
 

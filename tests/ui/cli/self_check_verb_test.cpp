@@ -1,4 +1,5 @@
-// `cavum devices --self-check` as a user runs it, on the simulated stylus that nobody holds; and when a station asks for one.
+// `cavum devices --self-check` as a user runs it, on the simulated stylus that nobody holds; and
+// when a station asks for one.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -23,7 +24,8 @@ TEST_F(SelfCheckVerb, LearnsThenFindsNothingThenBeginsAnewWithAReason) {
   json last = run_json(check + " --station-name 'Seat 3'");
   EXPECT_EQ(last["station"], "Seat 3");
   EXPECT_EQ(last["verdict"]["outcome"], "learning");
-  EXPECT_NEAR(last["figures"]["friction_n"], 0.26, 0.02) << "that of the simulated Omni, and what is viscous";
+  EXPECT_NEAR(last["figures"]["friction_n"], 0.26, 0.02)
+      << "that of the simulated Omni, and what is viscous";
   EXPECT_NEAR(last["figures"]["axes"]["z"]["mass_kg"], 0.045, 0.003);
   EXPECT_NEAR(last["figures"]["quantum_mm"], 0.055, 1e-9);
   for (int i = 0; i < 8; ++i) last = run_json(check);
@@ -37,7 +39,7 @@ TEST_F(SelfCheckVerb, LearnsThenFindsNothingThenBeginsAnewWithAReason) {
 
 TEST_F(SelfCheckVerb, SaysWhatIsMissingOrDamaged) {
   expect_refused("devices --self-check", {"--self-check"});
-  expect_refused("devices --self-check --stylus simulated --go-on 'all is well'", {});
+  expect_refused("devices --self-check --stylus simulated --override-check 'all is well'", {});
   expect_refused("devices --self-check --stylus mouse", {"mouse"});
   static_cast<void>(run_json("devices --self-check --stylus simulated"));
   std::string text = read_text_file(history());
@@ -57,7 +59,8 @@ TEST_F(SelfCheckVerb, AStationAsksForOneWhenTheLastIsOldOrUndecided) {
   kept.add_check(stylus, f, 100 * hour, key);
   EXPECT_FALSE(needs_check(kept, stylus, 12, 111 * hour));
   EXPECT_TRUE(needs_check(kept, stylus, 12, 113 * hour));
-  EXPECT_TRUE(needs_check(kept, stylus, 12, 99 * hour)) << "it comes from the future: the clock was set";
+  EXPECT_TRUE(needs_check(kept, stylus, 12, 99 * hour))
+      << "it comes from the future: the clock was set";
   EXPECT_TRUE(needs_check(kept, {"falcon", "B2"}, 12, 101 * hour)) << "another stylus";
   f.doubt = msg("a hand is on it");
   kept.add_check(stylus, f, 102 * hour, key);

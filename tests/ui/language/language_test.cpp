@@ -1,5 +1,5 @@
-// Sentences in the reader's language: what tr() says, which language is chosen, and that the German catalogue takes every argument that the English
-// sentence has.
+// Sentences in the reader's language: what tr() says, which language is chosen, and that the German
+// catalogue takes every argument that the English sentence has.
 #include "ui/language/language.h"
 
 #include <gtest/gtest.h>
@@ -27,8 +27,9 @@ class Language : public ::testing::Test {
 
 TEST_F(Language, EnglishIsWhatStandsInTheCode) {
   EXPECT_EQ(tr("page {} of {}", 1, 12), "page 1 of 12");
-  EXPECT_EQ(tr("{} points below the pass mark of {} points ({} %)", as_points(1.5), as_is("60"), 60),
-            "1.5 points below the pass mark of 60 points (60 %)");
+  EXPECT_EQ(
+      tr("{} points below the pass mark of {} points ({} %)", as_points(1.5), as_is("60"), 60),
+      "1.5 points below the pass mark of 60 points (60 %)");
   EXPECT_EQ(trn("{} candidate", "{} candidates", 1, 1), "1 candidate");
   EXPECT_EQ(trn("{} candidate", "{} candidates", 0, 0), "0 candidates");
 }
@@ -46,7 +47,8 @@ TEST_F(Language, NumbersHaveTheReadersDecimalSignAndNamesStayAsTheyAre) {
   set_language("de");
   EXPECT_EQ(tr(msg("{}", as_mm(0.3, 2, 0.02))), "0,30 ± 0,02 mm");
   EXPECT_EQ(tr(msg("{}", Vec3{1.2, 0.3, -2.1})), "[1,20; 0,30; -2,10] mm");
-  for (const char* name : {"round-1.0", "exam-2.5.cavum", "full marks"}) EXPECT_EQ(tr(msg("{}", name)), name);
+  for (const char* name : {"round-1.0", "exam-2.5.cavum", "full marks"})
+    EXPECT_EQ(tr(msg("{}", name)), name);
 }
 
 TEST_F(Language, AnAuthorsTextIsSaidAsItsFileHasIt) {

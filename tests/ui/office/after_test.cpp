@@ -1,4 +1,5 @@
-// What becomes of results at the office: an appeal with its trail, a result that is taken back, and the report of an exam as a page of no site.
+// What becomes of results at the office: an appeal with its trail, a result that is taken back, and
+// the report of an exam as a page of no site.
 #include "engine/base/hash.h"
 #include "grading/records/entry_text.h"
 #include "grading/records/issue.h"
@@ -26,46 +27,102 @@ class AfterTheExam : public testing::Test {
     session_ = filed["entry"];
   }
   [[nodiscard]] records::LedgerEntry last() const { return opened_.content().entries.back(); }
-  [[nodiscard]] std::string who_sat() const { return records::read_registry(opened_.content()).sessions.at(0).candidate; }
+  [[nodiscard]] std::string who_sat() const {
+    return records::read_registry(opened_.content()).sessions.at(0).candidate;
+  }
   [[nodiscard]] json appeal() const { return examiner_.get("/api/appeals").json()["appeals"][0]; }
 
   Opened opened_;
-  Visitor officer_ = opened_.signed_in(Role::officer), examiner_ = opened_.signed_in(Role::examiner);
+  Visitor officer_ = opened_.signed_in(Role::officer),
+          examiner_ = opened_.signed_in(Role::examiner);
   std::string hash_;
   std::uint64_t session_ = 0;
 };
 
 TEST_F(AfterTheExam, AnAppealIsOpenedByTheOfficerAndAnsweredByTheExaminerEachWithReason) {
-  EXPECT_EQ(officer_.post("/api/appeals/open", {{"session", session_}}).status, 400) << "without a reason";
-  EXPECT_EQ(officer_.post("/api/appeals/open", {{"session", session_}, {"reason", "  "}}).status, 400) << "blanks are none";
-  EXPECT_EQ(examiner_.post("/api/appeals/open", {{"session", session_}, {"reason", "x"}}).status, 403);
-  EXPECT_EQ(examiner_.post("/api/decide", {{"session", session_}, {"verdict", "fail"}, {"reason", "x"}}).status, 400) << "nothing to decide";
-  const std::string told = examiner_.post("/api/decide", {{"session", session_}, {"verdict", "fail"}, {"reason", "x"}}).json()["error"];
+  EXPECT_EQ(officer_.post("/api/appeals/open", {{"session", session_}}).status, 400)
+      << "without a reason";
+  EXPECT_EQ(officer_.post("/api/appeals/open", {{"session", session_}, {"reason", "  "}}).status,
+            400)
+      << "blanks are none";
+  EXPECT_EQ(examiner_.post("/api/appeals/open", {{"session", session_}, {"reason", "x"}}).status,
+            403);
+  EXPECT_EQ(
+      examiner_.post("/api/decide", {{"session", session_}, {"verdict", "fail"}, {"reason", "x"}})
+          .status,
+      400)
+      << "nothing to decide";
+  const std::string told =
+      examiner_.post("/api/decide", {{"session", session_}, {"verdict", "fail"}, {"reason", "x"}})
+          .json()["error"];
   EXPECT_EQ(told.find("--"), std::string::npos) << "no option of the command line: " << told;
-  ASSERT_EQ(officer_.post("/api/appeals/open", {{"session", session_}, {"reason", "the floor was probed twice"}}).status, 200);
+  ASSERT_EQ(officer_
+                .post("/api/appeals/open",
+                      {{"session", session_}, {"reason", "the floor was probed twice"}})
+                .status,
+            200);
   EXPECT_NE(last().as<records::AppealEntry>(), nullptr);
   EXPECT_EQ(last().by.account, "The officer");
-  EXPECT_EQ(officer_.post("/api/appeals/open", {{"session", session_}, {"reason", "again"}}).status, 400);
+  EXPECT_EQ(officer_.post("/api/appeals/open", {{"session", session_}, {"reason", "again"}}).status,
+            400);
   EXPECT_EQ(appeal()["open"], true);
   EXPECT_FALSE(appeal().contains("name")) << "an examiner sees no name";
-  EXPECT_EQ(officer_.post("/api/appeals/answer", {{"session", session_}, {"outcome", "stands"}, {"reason", "x"}}).status, 403);
-  EXPECT_EQ(examiner_.post("/api/appeals/answer", {{"session", session_}, {"outcome", "changed"}, {"reason", "x"}}).status, 400) << "nothing changed";
-  ASSERT_EQ(examiner_.post("/api/decide", {{"session", session_}, {"verdict", "fail"}, {"reason", "a wall is thin"}}).status, 200);
-  ASSERT_EQ(examiner_.post("/api/appeals/answer", {{"session", session_}, {"outcome", "changed"}, {"reason", "measured again"}}).status, 200);
+  EXPECT_EQ(officer_
+                .post("/api/appeals/answer",
+                      {{"session", session_}, {"outcome", "stands"}, {"reason", "x"}})
+                .status,
+            403);
+  EXPECT_EQ(examiner_
+                .post("/api/appeals/answer",
+                      {{"session", session_}, {"outcome", "changed"}, {"reason", "x"}})
+                .status,
+            400)
+      << "nothing changed";
+  ASSERT_EQ(examiner_
+                .post("/api/decide",
+                      {{"session", session_}, {"verdict", "fail"}, {"reason", "a wall is thin"}})
+                .status,
+            200);
+  ASSERT_EQ(examiner_
+                .post("/api/appeals/answer",
+                      {{"session", session_}, {"outcome", "changed"}, {"reason", "measured again"}})
+                .status,
+            200);
   EXPECT_EQ(last().by.account, "The examiner");
   EXPECT_EQ(appeal()["open"], false);
   EXPECT_EQ(appeal()["answer"], "measured again");
   EXPECT_EQ(appeal()["verdict"], "fail");
-  EXPECT_EQ(examiner_.post("/api/appeals/answer", {{"session", session_}, {"outcome", "stands"}, {"reason", "x"}}).status, 400) << "once";
+  EXPECT_EQ(examiner_
+                .post("/api/appeals/answer",
+                      {{"session", session_}, {"outcome", "stands"}, {"reason", "x"}})
+                .status,
+            400)
+      << "once";
   EXPECT_TRUE(records::read_registry(opened_.content()).findings.empty());
 }
 
 TEST_F(AfterTheExam, AResultIsTakenBackWithReasonAndSecondFactorOnly) {
-  ASSERT_EQ(officer_.post("/api/release", {{"all", true}, {"reason", "board"}, {"code", opened_.code(-1)}}).json()["released"], 1);
+  ASSERT_EQ(
+      officer_
+          .post("/api/release", {{"all", true}, {"reason", "board"}, {"code", opened_.code(-1)}})
+          .json()["released"],
+      1);
   ASSERT_NE(officer_.get("/api/gradebook.csv").body.find("\n4711,"), std::string::npos);
-  EXPECT_EQ(officer_.post("/api/retract", {{"sessions", {session_}}, {"reason", "wrong tooth"}, {"code", "000000"}}).status, 400);
-  EXPECT_EQ(officer_.post("/api/retract", {{"sessions", {session_}}, {"code", opened_.code()}}).status, 400) << "without a reason";
-  ASSERT_EQ(officer_.post("/api/retract", {{"sessions", {session_}}, {"reason", "wrong tooth"}, {"code", opened_.code(1)}}).status, 200);
+  EXPECT_EQ(officer_
+                .post("/api/retract",
+                      {{"sessions", {session_}}, {"reason", "wrong tooth"}, {"code", "000000"}})
+                .status,
+            400);
+  EXPECT_EQ(
+      officer_.post("/api/retract", {{"sessions", {session_}}, {"code", opened_.code()}}).status,
+      400)
+      << "without a reason";
+  ASSERT_EQ(
+      officer_
+          .post("/api/retract",
+                {{"sessions", {session_}}, {"reason", "wrong tooth"}, {"code", opened_.code(1)}})
+          .status,
+      200);
   EXPECT_NE(last().as<records::RetractEntry>(), nullptr);
   EXPECT_EQ(last().by.reason, "wrong tooth");
   EXPECT_EQ(officer_.get("/api/gradebook.csv").body.find("\n4711,"), std::string::npos);
@@ -75,18 +132,42 @@ TEST_F(AfterTheExam, AResultIsTakenBackWithReasonAndSecondFactorOnly) {
 
 TEST_F(AfterTheExam, WhatWasTakenBackGoesOutByNameOnlyAndNothingThatThePageDidNotShow) {
   const auto row = [&] { return officer_.get("/api/results").json()["results"][0]; };
-  ASSERT_EQ(officer_.post("/api/release", {{"results", {row()["result"]}}, {"reason", "board"}, {"code", opened_.code(-1)}}).json()["released"], 1);
-  ASSERT_EQ(officer_.post("/api/retract", {{"sessions", {session_}}, {"reason", "wrong tooth"}, {"code", opened_.code()}}).status, 200);
+  ASSERT_EQ(
+      officer_
+          .post("/api/release",
+                {{"results", {row()["result"]}}, {"reason", "board"}, {"code", opened_.code(-1)}})
+          .json()["released"],
+      1);
+  ASSERT_EQ(
+      officer_
+          .post("/api/retract",
+                {{"sessions", {session_}}, {"reason", "wrong tooth"}, {"code", opened_.code()}})
+          .status,
+      200);
   EXPECT_EQ(row()["state"], "taken back");
   EXPECT_EQ(row()["why_back"], "wrong tooth");
-  const json all = officer_.post("/api/release", {{"all", true}, {"reason", "board"}, {"code", opened_.code(1)}}).json();
+  const json all =
+      officer_.post("/api/release", {{"all", true}, {"reason", "board"}, {"code", opened_.code(1)}})
+          .json();
   EXPECT_EQ(all["released"], 0);
-  EXPECT_EQ(all["kept_back"], 1);
+  EXPECT_EQ(all["withheld"], 1);
 
   const json shown = row()["result"];
-  ASSERT_EQ(officer_.post("/api/appeals/open", {{"session", session_}, {"reason", "the floor was probed twice"}}).status, 200);
-  ASSERT_EQ(examiner_.post("/api/decide", {{"session", session_}, {"verdict", "fail"}, {"reason", "a wall is thin"}}).status, 200);
-  ASSERT_EQ(officer_.post("/api/incidents", {{"station", ""}, {"candidate", who_sat()}, {"words", "the stylus trembled"}}).status, 200);
+  ASSERT_EQ(officer_
+                .post("/api/appeals/open",
+                      {{"session", session_}, {"reason", "the floor was probed twice"}})
+                .status,
+            200);
+  ASSERT_EQ(examiner_
+                .post("/api/decide",
+                      {{"session", session_}, {"verdict", "fail"}, {"reason", "a wall is thin"}})
+                .status,
+            200);
+  ASSERT_EQ(officer_
+                .post("/api/incidents",
+                      {{"station", ""}, {"candidate", who_sat()}, {"words", "the stylus trembled"}})
+                .status,
+            200);
   EXPECT_EQ(row()["state"], "ready") << "another result was entered since";
   EXPECT_EQ(appeal()["decided"]["by"], "The examiner");
   EXPECT_EQ(appeal()["decided"]["counts"], true);
@@ -94,18 +175,39 @@ TEST_F(AfterTheExam, WhatWasTakenBackGoesOutByNameOnlyAndNothingThatThePageDidNo
   opened_.accounts().set("Otto", Role::officer, k_password, true);  // the other's codes are used
   Visitor otto(opened_.port());
   ASSERT_EQ(otto.sign_in("Otto", k_password).status, 200);
-  EXPECT_EQ(otto.post("/api/release", {{"results", {shown}}, {"reason", "board"}, {"code", opened_.code_of("Otto")}}).status, 400)
+  EXPECT_EQ(
+      otto.post("/api/release",
+                {{"results", {shown}}, {"reason", "board"}, {"code", opened_.code_of("Otto")}})
+          .status,
+      400)
       << "the page showed another result";
 }
 
 TEST_F(AfterTheExam, WhatIsOutIsShownBesideWhatWouldGoOutNext) {
-  ASSERT_EQ(officer_.post("/api/release", {{"all", true}, {"reason", "board"}, {"code", opened_.code(-1)}}).json()["released"], 1);
+  ASSERT_EQ(
+      officer_
+          .post("/api/release", {{"all", true}, {"reason", "board"}, {"code", opened_.code(-1)}})
+          .json()["released"],
+      1);
   const json released = officer_.get("/api/results").json()["results"][0];
   EXPECT_FALSE(released.contains("out"));
-  ASSERT_EQ(officer_.post("/api/appeals/open", {{"session", session_}, {"reason", "the floor was probed twice"}}).status, 200);
+  ASSERT_EQ(officer_
+                .post("/api/appeals/open",
+                      {{"session", session_}, {"reason", "the floor was probed twice"}})
+                .status,
+            200);
   const std::string other = released["verdict"] == "pass" ? "fail" : "pass";
-  ASSERT_EQ(examiner_.post("/api/decide", {{"session", session_}, {"verdict", other}, {"reason", "a wall is thin"}}).status, 200);
-  EXPECT_EQ(examiner_.post("/api/appeals/answer", {{"session", session_}, {"outcome", "stands"}, {"reason", "x"}}).status, 400) << "it was changed";
+  ASSERT_EQ(examiner_
+                .post("/api/decide",
+                      {{"session", session_}, {"verdict", other}, {"reason", "a wall is thin"}})
+                .status,
+            200);
+  EXPECT_EQ(examiner_
+                .post("/api/appeals/answer",
+                      {{"session", session_}, {"outcome", "stands"}, {"reason", "x"}})
+                .status,
+            400)
+      << "it was changed";
   const json row = officer_.get("/api/results").json()["results"][0];
   EXPECT_EQ(row["verdict"], other);
   EXPECT_EQ(row["state"], "ready");
@@ -116,7 +218,8 @@ TEST_F(AfterTheExam, WhoHasSatIsGivenAnotherAttemptOnlyWhenAskedForAndTheLastTha
   const json refused = opened_.issue(officer_, "4711\n4712\n").json();
   ASSERT_EQ(refused["issued"].size(), 1u);
   EXPECT_EQ(refused["issued"][0]["id"], "4712");
-  EXPECT_NE(refused["refused"][0]["why"].get<std::string>().find("block_cavity"), std::string::npos) << refused;
+  EXPECT_NE(refused["refused"][0]["why"].get<std::string>().find("block_cavity"), std::string::npos)
+      << refused;
   ASSERT_EQ(opened_.issue(officer_, "4711\n", false, true).json()["issued"].size(), 1u);
   auto station = opened_.station();
   std::string again;
@@ -126,15 +229,25 @@ TEST_F(AfterTheExam, WhoHasSatIsGivenAnotherAttemptOnlyWhenAskedForAndTheLastTha
   station.hand_in(image);
   const json filed = Opened::outcome(station, to_hex(sha256(image)));
   ASSERT_EQ(filed["state"], "filed") << filed;
-  ASSERT_EQ(officer_.post("/api/release", {{"all", true}, {"reason", "board"}, {"code", opened_.code(-1)}}).json()["released"], 2);
+  ASSERT_EQ(
+      officer_
+          .post("/api/release", {{"all", true}, {"reason", "board"}, {"code", opened_.code(-1)}})
+          .json()["released"],
+      2);
   const json results = officer_.get("/api/results").json()["results"];
   EXPECT_EQ(results[0]["later"], filed["entry"]);
   EXPECT_FALSE(results[1].contains("later"));
 }
 
 TEST_F(AfterTheExam, TheTrailTellsEveryEntryOnceAndNamesOnlyToTheOfficer) {
-  ASSERT_EQ(officer_.post("/api/incidents", {{"station", ""}, {"candidate", who_sat()}, {"words", "spilt water"}}).status, 200);
-  ASSERT_EQ(officer_.post("/api/appeals/open", {{"session", session_}, {"reason", "the floor"}}).status, 200);
+  ASSERT_EQ(officer_
+                .post("/api/incidents",
+                      {{"station", ""}, {"candidate", who_sat()}, {"words", "spilt water"}})
+                .status,
+            200);
+  ASSERT_EQ(
+      officer_.post("/api/appeals/open", {{"session", session_}, {"reason", "the floor"}}).status,
+      200);
   ASSERT_EQ(officer_.post("/api/hold", {{"reason", "alarm"}, {"to", {{"all", true}}}}).status, 200);
   const json all = officer_.post("/api/trail", json::object()).json();
   const auto entries = opened_.content().entries;
@@ -150,7 +263,8 @@ TEST_F(AfterTheExam, TheTrailTellsEveryEntryOnceAndNamesOnlyToTheOfficer) {
   EXPECT_EQ(all["entries"][0]["what"], "hold");
   EXPECT_EQ(all["entries"][0]["why"], "alarm");
   EXPECT_EQ(all["entries"][2]["why"], "spilt water");
-  const json before = officer_.post("/api/trail", {{"before", entries.size() - 3}}).json()["entries"];
+  const json before =
+      officer_.post("/api/trail", {{"before", entries.size() - 3}}).json()["entries"];
   ASSERT_EQ(before.size(), entries.size() - 3);
   EXPECT_EQ(before[0]["entry"], entries.size() - 4);
   ASSERT_EQ(opened_.issue(officer_, "4712\n4713\n").status, 200);
@@ -159,8 +273,12 @@ TEST_F(AfterTheExam, TheTrailTellsEveryEntryOnceAndNamesOnlyToTheOfficer) {
     const std::uint64_t last_ticket = ledger.content().entries.size() - 1;
     static_cast<void>(records::seat_candidates(ledger, {{last_ticket - 1, ""}, {last_ticket, ""}}));
   }
-  EXPECT_EQ(officer_.post("/api/trail", json::object()).json()["entries"][0]["people"], json::array()) << "of two the number is told";
-  EXPECT_EQ(officer_.post("/api/trail", {{"about", "4713"}}).json()["entries"][0]["people"][0]["id"], "4713")
+  EXPECT_EQ(officer_.post("/api/trail", json::object()).json()["entries"][0]["people"],
+            json::array())
+      << "of two the number is told";
+  EXPECT_EQ(
+      officer_.post("/api/trail", {{"about", "4713"}}).json()["entries"][0]["people"][0]["id"],
+      "4713")
       << "who is asked for, and not the first";
   const json his = officer_.post("/api/trail", {{"about", "4711"}}).json()["entries"];
   std::vector<std::string> what;
@@ -169,7 +287,8 @@ TEST_F(AfterTheExam, TheTrailTellsEveryEntryOnceAndNamesOnlyToTheOfficer) {
     EXPECT_EQ(row["people"][0], (json{{"candidate", who_sat()}, {"id", "4711"}, {"name", ""}}));
   }
   EXPECT_EQ(what, (std::vector<std::string>{"appeal", "incident", "session", "ticket"}));
-  EXPECT_EQ(examiner_.post("/api/trail", {{"about", "4711"}}).json()["entries"].size(), 0u) << "whose number that is he is not told";
+  EXPECT_EQ(examiner_.post("/api/trail", {{"about", "4711"}}).json()["entries"].size(), 0u)
+      << "whose number that is he is not told";
   const json seen = examiner_.post("/api/trail", {{"about", who_sat()}}).json()["entries"];
   ASSERT_EQ(seen.size(), 4u);
   EXPECT_EQ(seen[1]["why"], "") << "what was said of somebody";
@@ -183,9 +302,13 @@ TEST_F(AfterTheExam, AReportRunsItsOwnScriptAloneAndReachesNothingOfTheOffice) {
   ASSERT_EQ(report.status, 200) << report.body;
   EXPECT_NE(report.body.find(hash_), std::string::npos);
   const std::string policy = report.fields.at("content-security-policy");
-  EXPECT_NE(policy.find("script-src 'sha256-" + records::to_base64(sha256(std::string("1"))) + "';"), std::string::npos) << policy;
+  EXPECT_NE(
+      policy.find("script-src 'sha256-" + records::to_base64(sha256(std::string("1"))) + "';"),
+      std::string::npos)
+      << policy;
   EXPECT_NE(policy.find("sandbox allow-scripts"), std::string::npos);
-  for (const char* no : {"allow-same-origin", "allow-top-navigation", "connect-src", "script-src 'unsafe-inline'"})
+  for (const char* no :
+       {"allow-same-origin", "allow-top-navigation", "connect-src", "script-src 'unsafe-inline'"})
     EXPECT_EQ(policy.find(no), std::string::npos) << policy;
   EXPECT_EQ(examiner_.get("/api/report/" + std::string(64, 'a')).status, 400) << "not filed";
   EXPECT_EQ(opened_.signed_in(Role::invigilator).get("/api/report/" + hash_).status, 403);

@@ -1,4 +1,5 @@
-// A new rubric over a whole class at the office: what is shown before it counts, who lets it count and how, and what a restart or a kill leaves.
+// A new rubric over a whole class at the office: what is shown before it counts, who lets it count
+// and how, and what a restart or a kill leaves.
 #include <random>
 
 #include "grading/marking/grade.h"
@@ -45,15 +46,19 @@ class ClassRubric : public testing::Test {
     opened_.accounts().set(k_eva, Role::examiner, k_password, true);
     ASSERT_EQ(eva_.sign_in(k_eva, k_password).status, 200);
   }
-  json begin(const std::string& rubric = k_new_rubric) { return eva_.post("/api/regrade/begin", {{"exam", k_exam}, {"rubric", rubric}}).json(); }
+  json begin(const std::string& rubric = k_new_rubric) {
+    return eva_.post("/api/regrade/begin", {{"exam", k_exam}, {"rubric", rubric}}).json();
+  }
   Heard count(const json& begun, int steps_on = 0) {
-    return eva_.post("/api/regrade/count",
-                     {{"id", begun["id"]}, {"reason", "question 3 was misprinted"}, {"code", opened_.code_of(k_eva, steps_on)}});
+    return eva_.post("/api/regrade/count", {{"id", begun["id"]},
+                                            {"reason", "question 3 was misprinted"},
+                                            {"code", opened_.code_of(k_eva, steps_on)}});
   }
   std::size_t entries() const { return opened_.content().entries.size(); }
 
   Opened opened_;
-  Visitor eva_{opened_.port()}, examiner_ = opened_.signed_in(Role::examiner), officer_ = opened_.signed_in(Role::officer);
+  Visitor eva_{opened_.port()}, examiner_ = opened_.signed_in(Role::examiner),
+                                officer_ = opened_.signed_in(Role::officer);
 };
 
 TEST_F(ClassRubric, ShowsWhoWouldChangeAndCountsAllAtOnce) {
@@ -67,9 +72,12 @@ TEST_F(ClassRubric, ShowsWhoWouldChangeAndCountsAllAtOnce) {
   for (std::size_t i = 0; i < 2; ++i) {  // marked here by the rubric itself, without the office
     const json& row = state["sessions"][i];
     grading::ExamContexts grounds;
-    const auto graded = grading::load_for_grading(SessionReader(opened_.school().places().session(registry.sessions[i].file_sha256)), grounds);
+    const auto graded = grading::load_for_grading(
+        SessionReader(opened_.school().places().session(registry.sessions[i].file_sha256)),
+        grounds);
     grading::use_rubric(*graded, scenarios::parse_rubric(k_new_rubric, "rubric"));
-    const json wanted = json::parse(grading::to_json(grading::grade(graded->input(), graded->rubric)).dump());
+    const json wanted =
+        json::parse(grading::to_json(grading::grade(graded->input(), graded->rubric)).dump());
     EXPECT_EQ(row["candidate"], registry.sessions[i].candidate);
     EXPECT_EQ(row["points"], wanted["score"]["points"]);
     EXPECT_EQ(row["max"], 10);
@@ -86,8 +94,10 @@ TEST_F(ClassRubric, ShowsWhoWouldChangeAndCountsAllAtOnce) {
     EXPECT_EQ(content.entries[before + i].by.reason, "question 3 was misprinted");
   }
   EXPECT_EQ(eva_.get("/api/regrade").json()["first_entry"], before);
-  EXPECT_EQ(records::read_registry(content).sessions[0].result->at("score")["points"], state["sessions"][0]["points"]);
-  EXPECT_TRUE(records::check_ledger(opened_.school().places(), true).findings.empty()) << "made again from what the ledger keeps";
+  EXPECT_EQ(records::read_registry(content).sessions[0].result->at("score")["points"],
+            state["sessions"][0]["points"]);
+  EXPECT_TRUE(records::check_ledger(opened_.school().places(), true).findings.empty())
+      << "made again from what the ledger keeps";
   EXPECT_EQ(count(begun, 1).status, 400) << "once";
 }
 
@@ -96,10 +106,16 @@ TEST_F(ClassRubric, WhoSitsAfterwardsIsNotReleasedByTheOldRubricUnseen) {
   ASSERT_EQ(waited(eva_)["state"], "ready");
   ASSERT_EQ(count(begun).json()["counted"], 2);
   file_some(opened_.school(), 1, "late");
-  const records::Release all = records::select_results(records::read_registry(opened_.content()), {.all = true, .undecided = true});
+  const records::Release all = records::select_results(records::read_registry(opened_.content()),
+                                                       {.all = true, .undecided = true});
   EXPECT_EQ(all.results.size(), 2u);
-  EXPECT_EQ(all.kept_back, 1u);
-  const auto late = [&] { return opened_.signed_in(Role::officer).get("/api/results").json()["results"][2]["state"].get<std::string>(); };
+  EXPECT_EQ(all.withheld, 1u);
+  const auto late = [&] {
+    return opened_.signed_in(Role::officer)
+        .get("/api/results")
+        .json()["results"][2]["state"]
+        .get<std::string>();
+  };
   EXPECT_EQ(late(), "marked otherwise");
   const json again = begin();
   ASSERT_EQ(waited(eva_)["state"], "ready");
@@ -121,7 +137,9 @@ TEST_F(ClassRubric, AnotherPassMarkAloneGivesNobodyOtherPoints) {
 }
 
 TEST_F(ClassRubric, CountsOnlyForWhoLookedAtItWithReasonAndCode) {
-  EXPECT_EQ(officer_.post("/api/regrade/begin", {{"exam", k_exam}, {"rubric", k_new_rubric}}).status, 403);
+  EXPECT_EQ(
+      officer_.post("/api/regrade/begin", {{"exam", k_exam}, {"rubric", k_new_rubric}}).status,
+      403);
   const std::size_t before = entries();
   const json begun = begin();
   ASSERT_EQ(waited(eva_)["state"], "ready");
@@ -135,16 +153,25 @@ TEST_F(ClassRubric, CountsOnlyForWhoLookedAtItWithReasonAndCode) {
   EXPECT_EQ(count_as(eva_, {{"reason", ""}}), 400);
   EXPECT_EQ(count_as(eva_, {{"code", "000000"}}), 400);
   EXPECT_EQ(count_as(eva_, {{"id", "0123456789abcdef"}}), 400);
-  EXPECT_EQ(examiner_.post("/api/regrade/drop", {{"id", begun["id"]}}).status, 400) << "of another one";
-  EXPECT_EQ(examiner_.post("/api/regrade/begin", {{"exam", k_exam}, {"rubric", k_new_rubric}}).status, 400) << "one at a time";
+  EXPECT_EQ(examiner_.post("/api/regrade/drop", {{"id", begun["id"]}}).status, 400)
+      << "of another one";
+  EXPECT_EQ(
+      examiner_.post("/api/regrade/begin", {{"exam", k_exam}, {"rubric", k_new_rubric}}).status,
+      400)
+      << "one at a time";
   EXPECT_EQ(entries(), before);
   EXPECT_EQ(eva_.post("/api/regrade/drop", {{"id", begun["id"]}}).status, 200);
   EXPECT_EQ(count(begun).status, 400) << "it was dropped";
   EXPECT_EQ(entries(), before);
   // an examiner without a second factor looks, and lets nothing count
-  const json plain = examiner_.post("/api/regrade/begin", {{"exam", k_exam}, {"rubric", k_new_rubric}}).json();
+  const json plain =
+      examiner_.post("/api/regrade/begin", {{"exam", k_exam}, {"rubric", k_new_rubric}}).json();
   ASSERT_EQ(waited(examiner_)["state"], "ready");
-  EXPECT_EQ(examiner_.post("/api/regrade/count", {{"id", plain["id"]}, {"reason", "x"}, {"code", "000000"}}).status, 400);
+  EXPECT_EQ(
+      examiner_
+          .post("/api/regrade/count", {{"id", plain["id"]}, {"reason", "x"}, {"code", "000000"}})
+          .status,
+      400);
   EXPECT_EQ(entries(), before);
 }
 
@@ -164,11 +191,21 @@ TEST_F(ClassRubric, IsRefusedWhenTheClassIsAnotherByThen) {
 
 TEST_F(ClassRubric, OfNoUseIsRefusedOrFailsWithWordsAndEntersNothing) {
   const std::size_t before = entries();
-  for (const std::string& bad : {std::string(), std::string("[rubric\n"), std::string(300'000, '#'), "a" + std::string(20'000, '.') + "b = 1",
-                                 k_new_rubric + "[[rubric.criteria]]\nid = \"x\"\nmetric = \"no such measure\"\nfull = 1\nzero = 0\npoints = 1\n"})
-    EXPECT_EQ(eva_.post("/api/regrade/begin", {{"exam", k_exam}, {"rubric", bad}}).status, 400) << bad.substr(0, 40);
-  EXPECT_EQ(eva_.post("/api/regrade/begin", {{"exam", "no such exam"}, {"rubric", k_new_rubric}}).status, 400);
-  EXPECT_EQ(eva_.post("/api/regrade/begin", {{"exam", k_exam}, {"rubric", std::string(600'000, '#')}}).status, 413);
+  for (
+      const std::string& bad :
+      {std::string(), std::string("[rubric\n"), std::string(300'000, '#'),
+       "a" + std::string(20'000, '.') + "b = 1",
+       k_new_rubric +
+           "[[rubric.criteria]]\nid = \"x\"\nmetric = \"no such measure\"\nfull = 1\nzero = 0\npoints = 1\n"})
+    EXPECT_EQ(eva_.post("/api/regrade/begin", {{"exam", k_exam}, {"rubric", bad}}).status, 400)
+        << bad.substr(0, 40);
+  EXPECT_EQ(
+      eva_.post("/api/regrade/begin", {{"exam", "no such exam"}, {"rubric", k_new_rubric}}).status,
+      400);
+  EXPECT_EQ(
+      eva_.post("/api/regrade/begin", {{"exam", k_exam}, {"rubric", std::string(600'000, '#')}})
+          .status,
+      413);
   EXPECT_EQ(eva_.get("/api/regrade").json()["state"], "none");
   EXPECT_EQ(entries(), before);
 }
@@ -207,11 +244,14 @@ TEST(KilledClassRubric, IsDoneOrNotBegunAndTheOfficeSaysWhich) {
       Served served(school);
       Visitor v{served.port()};
       ASSERT_EQ(v.sign_in(k_eva, k_password).status, 200);
-      const json begun = v.post("/api/regrade/begin", {{"exam", k_exam}, {"rubric", k_new_rubric}}).json();
+      const json begun =
+          v.post("/api/regrade/begin", {{"exam", k_exam}, {"rubric", k_new_rubric}}).json();
       ASSERT_EQ(waited(v)["state"], "ready");
-      const auto step = static_cast<std::uint64_t>(read_clocks().utc_ns / 1'000'000'000 / k_code_step_s);
+      const auto step =
+          static_cast<std::uint64_t>(read_clocks().utc_ns / 1'000'000'000 / k_code_step_s);
       std::thread counting([&, code = one_time_code(*from_base32(eva.code_secret), step)] {
-        static_cast<void>(v.post("/api/regrade/count", {{"id", begun["id"]}, {"reason", "x"}, {"code", code}}));
+        static_cast<void>(
+            v.post("/api/regrade/count", {{"id", begun["id"]}, {"reason", "x"}, {"code", code}}));
       });
       std::this_thread::sleep_for(std::chrono::microseconds(random() % 60'000));
       served.kill();
@@ -220,11 +260,13 @@ TEST(KilledClassRubric, IsDoneOrNotBegunAndTheOfficeSaysWhich) {
     const auto content = records::read_ledger(school.places());
     EXPECT_TRUE(content.findings.empty()) << "seed " << seed;
     const std::size_t added = content.entries.size() - before;
-    EXPECT_TRUE(added == 0 || added == k_sessions) << added << " of " << k_sessions << ", seed " << seed;
+    EXPECT_TRUE(added == 0 || added == k_sessions)
+        << added << " of " << k_sessions << ", seed " << seed;
     const Served served(school);
     Visitor v{served.port()};
     ASSERT_EQ(v.sign_in(k_eva, k_password).status, 200);
-    EXPECT_EQ(v.get("/api/regrade").json()["state"], added == 0 ? "lost" : "counted") << "seed " << seed;
+    EXPECT_EQ(v.get("/api/regrade").json()["state"], added == 0 ? "lost" : "counted")
+        << "seed " << seed;
   }
 }
 

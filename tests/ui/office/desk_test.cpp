@@ -1,4 +1,5 @@
-// What people do at the office: every action is an entry with who and why, and the ledger holds afterwards.
+// What people do at the office: every action is an entry with who and why, and the ledger holds
+// afterwards.
 #include "grading/records/regrade.h"
 #include "tests/ui/office/opened.h"
 #include "ui/language/language.h"
@@ -12,7 +13,9 @@ using nlohmann::json;
 
 TEST(Desk, FromRosterToGradebookEachActionIsAnEntryWithWhoAndWhy) {
   const Opened opened;
-  const Visitor officer = opened.signed_in(Role::officer), examiner = opened.signed_in(Role::examiner), reader = opened.signed_in(Role::reader);
+  const Visitor officer = opened.signed_in(Role::officer),
+                examiner = opened.signed_in(Role::examiner),
+                reader = opened.signed_in(Role::reader);
   const auto last = [&] { return opened.content().entries.back(); };
   EXPECT_EQ(officer.get("/api/exams").json()["exams"][0]["id"], "block_cavity");
   const Heard issued = opened.issue(officer, "4711\n4712\n");
@@ -34,7 +37,8 @@ TEST(Desk, FromRosterToGradebookEachActionIsAnEntryWithWhoAndWhy) {
     records::Ledger ledger = opened.school().ledger();
     json review = *records::read_registry(ledger.content()).sessions.at(0).result;
     review["verdict"] = "review";
-    review["verdict_reasons"] = json::array({to_json(grading::finding<grading::FindingKind::force_without_tissue>())});
+    review["verdict_reasons"] =
+        json::array({to_json(grading::finding<grading::FindingKind::force_without_tissue>())});
     records::enter_regrade(ledger, filed["entry"], review, {}, "as if");
     EXPECT_TRUE(ledger.content().entries.back().by.account.empty()) << "nobody signed in for that";
   }
@@ -45,29 +49,46 @@ TEST(Desk, FromRosterToGradebookEachActionIsAnEntryWithWhoAndWhy) {
   EXPECT_EQ(examiner.get("/api/results").json()["results"][0].contains("name"), false);
   EXPECT_EQ(officer.get("/api/results").json()["results"][0]["id"], "4711");
   const std::string code = opened.code();
-  EXPECT_EQ(officer.post("/api/release", {{"all", true}, {"reason", "board of May"}, {"code", code}}).json()["to_decide"], 1);
-  EXPECT_EQ(examiner.post("/api/decide", {{"session", filed["entry"]}, {"verdict", "pass"}}).status, 400) << "without a reason";
-  EXPECT_EQ(examiner.post("/api/decide", {{"session", filed["entry"]}, {"verdict", "pass"}, {"reason", "looked at it"}, {"person", "Somebody Else"}})
+  EXPECT_EQ(
+      officer.post("/api/release", {{"all", true}, {"reason", "board of May"}, {"code", code}})
+          .json()["to_decide"],
+      1);
+  EXPECT_EQ(examiner.post("/api/decide", {{"session", filed["entry"]}, {"verdict", "pass"}}).status,
+            400)
+      << "without a reason";
+  EXPECT_EQ(examiner
+                .post("/api/decide", {{"session", filed["entry"]},
+                                      {"verdict", "pass"},
+                                      {"reason", "looked at it"},
+                                      {"person", "Somebody Else"}})
                 .status,
             200);
-  EXPECT_EQ(last().as<records::RegradeEntry>()->person, "The examiner") << "whoever signed in, whatever the request says";
+  EXPECT_EQ(last().as<records::RegradeEntry>()->person, "The examiner")
+      << "whoever signed in, whatever the request says";
   EXPECT_EQ(last().by.account, "The examiner");
   EXPECT_EQ(last().by.reason, "looked at it");
 
   const auto entries = opened.content().entries.size();
   std::set<std::string> told;  // by another sentence each
   for (const std::string& bad : {std::string("000000"), code}) {
-    const auto refused = officer.post("/api/release", {{"all", true}, {"reason", "board of May"}, {"code", bad}});
+    const auto refused =
+        officer.post("/api/release", {{"all", true}, {"reason", "board of May"}, {"code", bad}});
     EXPECT_EQ(refused.status, 400) << "a code is good once";
     told.insert(refused.body);
   }
   EXPECT_EQ(told.size(), 2u);
   EXPECT_EQ(opened.content().entries.size(), entries);
-  EXPECT_EQ(officer.get("/api/gradebook.csv").body.find("4711"), std::string::npos) << "not before its release";
+  EXPECT_EQ(officer.get("/api/gradebook.csv").body.find("4711"), std::string::npos)
+      << "not before its release";
   // the code of the next step is good already: nobody waits half a minute here
   const auto secret = from_base32(opened.accounts().of("The officer")->code_secret);
-  const std::string next = one_time_code(*secret, static_cast<std::uint64_t>(read_clocks().utc_ns / 1'000'000'000 / k_code_step_s) + 1);
-  EXPECT_EQ(officer.post("/api/release", {{"all", true}, {"reason", "board of May"}, {"code", next}}).json()["released"], 1);
+  const std::string next = one_time_code(
+      *secret,
+      static_cast<std::uint64_t>(read_clocks().utc_ns / 1'000'000'000 / k_code_step_s) + 1);
+  EXPECT_EQ(
+      officer.post("/api/release", {{"all", true}, {"reason", "board of May"}, {"code", next}})
+          .json()["released"],
+      1);
   EXPECT_EQ(last().by.reason, "board of May");
   EXPECT_NE(officer.get("/api/gradebook.csv").body.find("\n4711,"), std::string::npos);
   const Heard criteria = reader.get("/api/criteria.csv");
@@ -87,12 +108,17 @@ TEST(Desk, AGradebookOfARehearsalHasWhatNoHandMovedMarkedAndUnderNoNumber) {
   const Visitor officer = opened.signed_in(Role::officer);
   const std::string candidate = opened.issue(officer, "4711\n").json()["issued"][0]["candidate"];
   auto station = opened.station();
-  const Bytes image = read_file(
-      opened.school().sit(station.tickets()[0]["text"], "expert", [](scenarios::ExamOptions& o) { o.notes.emplace_back("operator", "expert"); }));
+  const Bytes image = read_file(opened.school().sit(
+      station.tickets()[0]["text"], "expert",
+      [](scenarios::ExamOptions& o) { o.notes.emplace_back("operator", "expert"); }));
   station.hand_in(image);
   const json filed = Opened::outcome(station, to_hex(sha256(image)));
   ASSERT_EQ(filed["state"], "filed") << filed;
-  ASSERT_EQ(officer.post("/api/release", {{"all", true}, {"reason", "rehearsal"}, {"code", opened.code()}}).json()["released"], 1);
+  ASSERT_EQ(
+      officer
+          .post("/api/release", {{"all", true}, {"reason", "rehearsal"}, {"code", opened.code()}})
+          .json()["released"],
+      1);
   const auto book = [&] { return opened.signed_in(Role::officer).get("/api/gradebook.csv").body; };
   EXPECT_NE(book().find("\nSIMULATED " + candidate + ","), std::string::npos) << book();
   EXPECT_EQ(book().find("4711"), std::string::npos);
@@ -102,7 +128,10 @@ TEST(Desk, NothingIsIssuedWhileAColumnWaitsForItsAnswer) {
   const Opened opened;
   const Visitor officer = opened.signed_in(Role::officer);
   json asked = Opened::list("id,Seat\n1,3\n");
-  asked.update({{"exam", "block_cavity"}, {"from", "2026-01-01T00:00Z"}, {"until", "2036-01-01T00:00Z"}, {"reason", "class"}});
+  asked.update({{"exam", "block_cavity"},
+                {"from", "2026-01-01T00:00Z"},
+                {"until", "2036-01-01T00:00Z"},
+                {"reason", "class"}});
   EXPECT_EQ(officer.post("/api/roster/issue", asked).status, 400);
   const auto refused = [&](const char* name, const json& value) {
     json other = asked;
@@ -144,8 +173,10 @@ TEST(Desk, TheBoardIsToldLive) {
   const Opened opened;
   const Visitor invigilator = opened.signed_in(Role::invigilator);
   Wire wire(opened.port());
-  wire.send("GET /api/board/events HTTP/1.1\r\nHost: x\r\nCookie: __Host-cavum=" + invigilator.cookie + "\r\n\r\n");
-  EXPECT_NE(wire.hear_for(std::chrono::milliseconds(500)).find("text/event-stream"), std::string::npos);
+  wire.send("GET /api/board/events HTTP/1.1\r\nHost: x\r\nCookie: __Host-cavum=" +
+            invigilator.cookie + "\r\n\r\n");
+  EXPECT_NE(wire.hear_for(std::chrono::milliseconds(500)).find("text/event-stream"),
+            std::string::npos);
   auto station = opened.station();
   station.report({{"state", "exam"}, {"step", "Outline"}});
   const std::string told = Visitor(invigilator).get("/api/board").body;
@@ -157,10 +188,14 @@ TEST(Desk, TheBoardIsToldThatATicketRanOutByTheClockAlone) {
   const Visitor officer = opened.signed_in(Role::officer);
   const std::int64_t now = read_clocks().utc_ns;
   json asked = Opened::list("id\n4711\n");
-  asked.update({{"exam", "block_cavity"}, {"from", utc_text(now - k_hour_ns)}, {"until", utc_text(now + 5'000'000'000)}, {"reason", "class"}});
+  asked.update({{"exam", "block_cavity"},
+                {"from", utc_text(now - k_hour_ns)},
+                {"until", utc_text(now + 5'000'000'000)},
+                {"reason", "class"}});
   ASSERT_EQ(officer.post("/api/roster/issue", asked).status, 200);
   Wire wire(opened.port());
-  wire.send("GET /api/board/events HTTP/1.1\r\nHost: x\r\nCookie: __Host-cavum=" + officer.cookie + "\r\n\r\n");
+  wire.send("GET /api/board/events HTTP/1.1\r\nHost: x\r\nCookie: __Host-cavum=" + officer.cookie +
+            "\r\n\r\n");
   const std::string told = wire.hear_for(std::chrono::seconds(20));  // nothing happens meanwhile
   EXPECT_NE(told.find("\"live\":1"), std::string::npos) << told;
   EXPECT_NE(told.find("\"run out\":1"), std::string::npos) << told;

@@ -1,4 +1,5 @@
-// A server that is killed with -9 again and again while exams are handed in: what it said was filed is in the ledger, and the rest is sent again.
+// A server that is killed with -9 again and again while exams are handed in: what it said was filed
+// is in the ledger, and the rest is sent again.
 #include <random>
 #include <set>
 
@@ -24,9 +25,10 @@ TEST(Killed, NothingThatWasAcknowledgedIsLost) {
     exams.push_back(read_file(path));
   }
   std::map<std::string, std::uint64_t> acknowledged;  // entries by hash, as the server said
-  const auto try_all = [&](const std::string& address, std::chrono::steady_clock::time_point until, const auto& ready) {
-    StationClient station(address, station_path("office") + "/certificate.pem", to_hex(School::key().public_key),
-                          load_station_key(station_key_path()));
+  const auto try_all = [&](const std::string& address, std::chrono::steady_clock::time_point until,
+                           const auto& ready) {
+    StationClient station(address, station_path("office") + "/certificate.pem",
+                          to_hex(School::key().public_key), load_station_key(station_key_path()));
     while (std::chrono::steady_clock::now() < until && acknowledged.size() < exams.size()) {
       for (const Bytes& image : exams) {
         const std::string hash = to_hex(sha256(image));
@@ -54,7 +56,8 @@ TEST(Killed, NothingThatWasAcknowledgedIsLost) {
     const auto content = records::read_ledger(school.places());
     EXPECT_TRUE(content.findings.empty()) << "seed " << seed;
     for (const auto& [hash, entry] : acknowledged)
-      EXPECT_EQ(content.entries.at(entry).as<records::SessionEntry>()->file_sha256, hash) << "seed " << seed;
+      EXPECT_EQ(content.entries.at(entry).as<records::SessionEntry>()->file_sha256, hash)
+          << "seed " << seed;
   }
   {
     const Served served(school);
@@ -67,7 +70,8 @@ TEST(Killed, NothingThatWasAcknowledgedIsLost) {
   std::multiset<std::string> filed;
   for (const auto& e : content.entries)
     if (const auto* s = e.as<records::SessionEntry>()) filed.insert(s->file_sha256);
-  for (const Bytes& image : exams) EXPECT_EQ(filed.count(to_hex(sha256(image))), 1u) << "each once; seed " << seed;
+  for (const Bytes& image : exams)
+    EXPECT_EQ(filed.count(to_hex(sha256(image))), 1u) << "each once; seed " << seed;
 }
 
 }  // namespace

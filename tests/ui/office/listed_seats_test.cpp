@@ -1,4 +1,5 @@
-// The class list's column `station` is the seat: entered with the tickets, on card and sheet, and refused with its line where it cannot be.
+// The class list's column `station` is the seat: entered with the tickets, on card and sheet, and
+// refused with its line where it cannot be.
 #include "tests/ui/office/opened.h"
 #include "ui/office/papers.h"
 
@@ -15,19 +16,25 @@ class ListedSeats : public testing::Test {
   void enrol(const std::string& name, const std::string& key_file) const {
     const SigningKey key = load_signing_key(opened_.school().file(key_file + ".key"), "station");
     records::Ledger ledger = opened_.school().ledger();
-    const std::string code = records::invite_station(ledger, name, read_clocks().utc_ns + k_hour_ns);
-    static_cast<void>(records::enrol_station(ledger, records::station_request(key, ledger.content().public_key, {}, code), 0, "request"));
+    const std::string code =
+        records::invite_station(ledger, name, read_clocks().utc_ns + k_hour_ns);
+    static_cast<void>(records::enrol_station(
+        ledger, records::station_request(key, ledger.content().public_key, {}, code), 0,
+        "request"));
   }
   Heard issue(const std::string& list, std::int64_t from_h = -1, std::int64_t until_h = 1) {
     const std::int64_t now = read_clocks().utc_ns;
     json asked = Opened::list(list);
-    asked.update(
-        {{"exam", "block_cavity"}, {"from", utc_text(now + from_h * k_hour_ns)}, {"until", utc_text(now + until_h * k_hour_ns)}, {"reason", "x"}});
+    asked.update({{"exam", "block_cavity"},
+                  {"from", utc_text(now + from_h * k_hour_ns)},
+                  {"until", utc_text(now + until_h * k_hour_ns)},
+                  {"reason", "x"}});
     return officer_.post("/api/roster/issue", asked);
   }
   std::string preview_problem(const std::string& list) {
     const json preview = officer_.post("/api/roster/preview", Opened::list(list)).json();
-    return fmt::format("{}", fmt::join(preview.at("problems").get<std::vector<std::string>>(), "\n"));
+    return fmt::format("{}",
+                       fmt::join(preview.at("problems").get<std::vector<std::string>>(), "\n"));
   }
   /// Whether `parts`, between strokes, all stand in `text`.
   static bool tells_all(const std::string& text, const std::string& parts) {
@@ -56,20 +63,23 @@ TEST_F(ListedSeats, AreEnteredAndStandOnCardAndSheet) {
   records::Ledger ledger = opened_.school().ledger();
   std::map<std::string, std::string> places;
   for (const auto& i : invited(ledger, read_clocks().utc_ns)) places[i.id] = i.station;
-  EXPECT_EQ(places, (std::map<std::string, std::string>{{"4711", "Seat 2"}, {"4712", ""}, {"4713", "Seat 1"}}));
+  EXPECT_EQ(places, (std::map<std::string, std::string>{
+                        {"4711", "Seat 2"}, {"4712", ""}, {"4713", "Seat 1"}}));
 }
 
 TEST_F(ListedSeats, ThatCannotBeAreRefusedWithTheirLine) {
-  for (const auto& [list, told] : std::map<std::string, std::string>{{"id,station\n1,Seat 1\n2,Seat 9\n", "the list:3: station: |'Seat 9'"},
-                                                                     {"id,station\n1,seat 1\n", "the list:2: station: "},
-                                                                     {"id,station\n1,Seat 1\n2,\n3,Seat 1\n", "the list:4: station: |'Seat 1'"}}) {
+  for (const auto& [list, told] : std::map<std::string, std::string>{
+           {"id,station\n1,Seat 1\n2,Seat 9\n", "the list:3: station: |'Seat 9'"},
+           {"id,station\n1,seat 1\n", "the list:2: station: "},
+           {"id,station\n1,Seat 1\n2,\n3,Seat 1\n", "the list:4: station: |'Seat 1'"}}) {
     EXPECT_TRUE(tells_all(preview_problem(list), told)) << preview_problem(list);
     expect_refused(list, told);
   }
   ASSERT_EQ(issue("id,station\n4711,Seat 1\n").status, 200);
   expect_refused("id,station\n4712,Seat 2\n4713,Seat 1\n", "the list:3: station: |'Seat 1'");
   EXPECT_EQ(issue("id,station\n4713,Seat 1\n", 2, 3).status, 200) << "at another time it is free";
-  EXPECT_EQ(issue("id,station\n4711,Seat 1\n").json()["refused"].size(), 1u) << "his own seat is no other's";
+  EXPECT_EQ(issue("id,station\n4711,Seat 1\n").json()["refused"].size(), 1u)
+      << "his own seat is no other's";
 }
 
 TEST_F(ListedSeats, ThatAreNoneAreAllToldAtOnce) {
@@ -78,25 +88,35 @@ TEST_F(ListedSeats, ThatAreNoneAreAllToldAtOnce) {
   const std::string problem = preview_problem(list), refused = issue(list).json()["error"];
   for (const std::string& told : {problem, refused}) {
     EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 20) << told;
-    EXPECT_TRUE(tells_all(told, "the list:3: station: |'Place 1'|the list:22: station: |'Place 20'|the list|3")) << told;
+    EXPECT_TRUE(tells_all(
+        told, "the list:3: station: |'Place 1'|the list:22: station: |'Place 20'|the list|3"))
+        << told;
   }
   EXPECT_EQ(issue("id,station\n4711,Seat 1\n4712,Seat 2\n").status, 200);
   const std::string taken = issue("id,station\n4713,Seat 1\n4714,Seat 2\n").json()["error"];
-  EXPECT_TRUE(tells_all(taken, "the list:2: station: |'Seat 1'|the list:3: station: |'Seat 2'")) << taken;
+  EXPECT_TRUE(tells_all(taken, "the list:2: station: |'Seat 1'|the list:3: station: |'Seat 2'"))
+      << taken;
 }
 
 TEST_F(ListedSeats, OfSeveralSittingsFollowEachOtherInTheListsOrder) {
-  const std::int64_t from = read_clocks().utc_ns / 1'000'000'000 * 1'000'000'000, minute = 60'000'000'000;
+  const std::int64_t from = read_clocks().utc_ns / 1'000'000'000 * 1'000'000'000,
+                     minute = 60'000'000'000;
   json asked = Opened::list("id\n1\n2\n3\n4\n5\n");
-  asked.update({{"exam", "block_cavity"}, {"from", utc_text(from)}, {"until", utc_text(from + 5 * minute)}, {"reason", "x"}});
-  for (const auto& [at_once, apart] : std::vector<std::pair<json, json>>{{0, 30}, {2, 0}, {2, json()}, {"2", 30}, {2, 100000}}) {
+  asked.update({{"exam", "block_cavity"},
+                {"from", utc_text(from)},
+                {"until", utc_text(from + 5 * minute)},
+                {"reason", "x"}});
+  for (const auto& [at_once, apart] :
+       std::vector<std::pair<json, json>>{{0, 30}, {2, 0}, {2, json()}, {"2", 30}, {2, 100000}}) {
     json wrong = asked;
     wrong.update({{"at_once", at_once}, {"minutes_apart", apart}});
     EXPECT_EQ(officer_.post("/api/roster/issue", wrong).status, 400) << wrong;
   }
   // the exam takes two minutes: who begins at the end of five sits until the seventh
   asked.update({{"at_once", 2}, {"minutes_apart", 5}});
-  EXPECT_NE(officer_.post("/api/roster/issue", asked).json()["error"].get<std::string>().find(" 2 "), std::string::npos);
+  EXPECT_NE(
+      officer_.post("/api/roster/issue", asked).json()["error"].get<std::string>().find(" 2 "),
+      std::string::npos);
   EXPECT_EQ(officer_.get("/api/tickets").json()["tickets"].size(), 0u) << "nothing by halves";
   asked.update({{"minutes_apart", 30}});
   const json issued = officer_.post("/api/roster/issue", asked).json()["issued"];
@@ -116,7 +136,8 @@ TEST_F(ListedSeats, OfSeveralSittingsFollowEachOtherInTheListsOrder) {
 }
 
 TEST_F(ListedSeats, AListInPortionsIsTheListAsAWhole) {
-  const std::int64_t from = read_clocks().utc_ns / 1'000'000'000 * 1'000'000'000, minute = 60'000'000'000;
+  const std::int64_t from = read_clocks().utc_ns / 1'000'000'000 * 1'000'000'000,
+                     minute = 60'000'000'000;
   json asked = Opened::list("id,station\n1,\n2,\n3,Seat 1\n4,\n5,Seat 2\n");
   asked.update({{"exam", "block_cavity"},
                 {"from", utc_text(from)},
@@ -134,7 +155,9 @@ TEST_F(ListedSeats, AListInPortionsIsTheListAsAWhole) {
   ASSERT_EQ(tickets.size(), 5u);
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_EQ(tickets[i]["id"], std::to_string(i + 1));
-    EXPECT_EQ(tickets[i]["not_before"], utc_text(from + static_cast<std::int64_t>(i / 2) * 10 * minute)) << i;
+    EXPECT_EQ(tickets[i]["not_before"],
+              utc_text(from + static_cast<std::int64_t>(i / 2) * 10 * minute))
+        << i;
     EXPECT_EQ(tickets[i]["seat"].get<std::string>().empty(), i != 2 && i != 4) << i;
   }
   asked.update({{"first", 5}, {"most", 2}});
@@ -145,7 +168,11 @@ TEST_F(ListedSeats, AListInPortionsIsTheListAsAWhole) {
 
 TEST_F(ListedSeats, ARevokedStationAndANameOfTwoAreNone) {
   const json invited_now = officer_.get("/api/board").json()["stations"];
-  ASSERT_EQ(officer_.post("/api/stations/revoke", {{"public_key", invited_now[1]["public_key"]}, {"reason", "stolen"}}).status, 200);
+  ASSERT_EQ(officer_
+                .post("/api/stations/revoke",
+                      {{"public_key", invited_now[1]["public_key"]}, {"reason", "stolen"}})
+                .status,
+            200);
   expect_refused("id,station\n1,Seat 2\n", "the list:2: station: |'Seat 2'");
   enrol("Seat 1", "three");
   expect_refused("id,station\n1,Seat 1\n", "the list:2: station: |'Seat 1'");
@@ -154,9 +181,18 @@ TEST_F(ListedSeats, ARevokedStationAndANameOfTwoAreNone) {
 TEST_F(ListedSeats, ByHandNeitherHaveTwoAtOneTime) {
   ASSERT_EQ(issue("id,station\n4711,Seat 1\n4712,Seat 2\n").status, 200);
   const json tickets = officer_.get("/api/tickets").json()["tickets"];
-  EXPECT_EQ(officer_.post("/api/seats", {{"ticket", tickets[0]["entry"]}, {"station", tickets[1]["seat"]}}).status, 400);
-  EXPECT_EQ(officer_.post("/api/seats", {{"ticket", tickets[1]["entry"]}, {"station", ""}}).status, 200);
-  EXPECT_EQ(officer_.post("/api/seats", {{"ticket", tickets[0]["entry"]}, {"station", tickets[1]["seat"]}}).status, 200);
+  EXPECT_EQ(
+      officer_
+          .post("/api/seats", {{"ticket", tickets[0]["entry"]}, {"station", tickets[1]["seat"]}})
+          .status,
+      400);
+  EXPECT_EQ(officer_.post("/api/seats", {{"ticket", tickets[1]["entry"]}, {"station", ""}}).status,
+            200);
+  EXPECT_EQ(
+      officer_
+          .post("/api/seats", {{"ticket", tickets[0]["entry"]}, {"station", tickets[1]["seat"]}})
+          .status,
+      200);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Makeup sittings at the office: who asks and why, what is granted, and that stations know the makeup alone.
+// Makeup sittings at the office: who asks and why, what is granted, and that stations know the
+// makeup alone.
 #include "engine/base/json_fields.h"
 #include "tests/grading/records/short_exam.h"
 #include "tests/ui/office/opened.h"
@@ -16,15 +17,18 @@ class OfficeMakeup : public testing::Test {
   json issued(const std::string& list, std::int64_t from_h, std::int64_t until_h) {
     const std::int64_t now = read_clocks().utc_ns;
     json asked = Opened::list(list);
-    asked.update(
-        {{"exam", "block_cavity"}, {"from", utc_text(now + from_h * k_hour_ns)}, {"until", utc_text(now + until_h * k_hour_ns)}, {"reason", "x"}});
+    asked.update({{"exam", "block_cavity"},
+                  {"from", utc_text(now + from_h * k_hour_ns)},
+                  {"until", utc_text(now + until_h * k_hour_ns)},
+                  {"reason", "x"}});
     EXPECT_EQ(officer_.post("/api/roster/issue", asked).status, 200);
     return officer_.get("/api/tickets").json()["tickets"].back();
   }
   Heard make_up(const json& first, const json& more = json::object()) {
     const std::int64_t now = read_clocks().utc_ns;
-    json asked = {{"ticket", first["entry"]},           {"became", "interrupted"},  {"from", utc_text(now - k_hour_ns)},
-                  {"until", utc_text(now + k_hour_ns)}, {"accommodations", "none"}, {"reason", "the power failed"}};
+    json asked = {{"ticket", first["entry"]},          {"became", "interrupted"},
+                  {"from", utc_text(now - k_hour_ns)}, {"until", utc_text(now + k_hour_ns)},
+                  {"accommodations", "none"},          {"reason", "the power failed"}};
     asked.update(more);
     return officer_.post("/api/tickets/makeup", asked);
   }
@@ -52,7 +56,8 @@ TEST_F(OfficeMakeup, IsTheOnlyTicketThatStationsKnowAndGrantsWhatTheFirstDid) {
   EXPECT_EQ(last.by.reason, "the power failed");
   const json tickets = station.tickets();
   ASSERT_EQ(tickets.size(), 1u);
-  const auto a = records::parse_ticket(before, "", "a"), b = records::parse_ticket(tickets[0]["text"], "", "b");
+  const auto a = records::parse_ticket(before, "", "a"),
+             b = records::parse_ticket(tickets[0]["text"], "", "b");
   EXPECT_NE(a.nonce, b.nonce);
   EXPECT_EQ(a.candidate, b.candidate);
   EXPECT_EQ(a.grant, b.grant);
@@ -72,12 +77,16 @@ TEST_F(OfficeMakeup, ThatIsCancelledBeforeItBeganGivesTheFirstTicketBackToStatio
   const auto makeup = opened_.content().entries.back().seq;
   const Heard again = make_up(first, {{"accommodations", "as before"}});
   EXPECT_EQ(again.status, 400) << again.body;
-  ASSERT_EQ(officer_.post("/api/tickets/cancel", {{"entry", makeup}, {"reason", "is well again"}}).status, 200);
+  ASSERT_EQ(
+      officer_.post("/api/tickets/cancel", {{"entry", makeup}, {"reason", "is well again"}}).status,
+      200);
   ASSERT_EQ(station.tickets().size(), 1u);
   EXPECT_EQ(station.tickets()[0]["text"], before) << "with what it granted";
-  const Heard cancelled = officer_.post("/api/tickets/cancel", {{"entry", makeup}, {"reason", "x"}});
+  const Heard cancelled =
+      officer_.post("/api/tickets/cancel", {{"entry", makeup}, {"reason", "x"}});
   EXPECT_NE(cancelled.body.find(std::to_string(makeup)), std::string::npos) << cancelled.body;
-  EXPECT_EQ(cancelled.body.find("--"), std::string::npos) << "no option of the command line: " << cancelled.body;
+  EXPECT_EQ(cancelled.body.find("--"), std::string::npos)
+      << "no option of the command line: " << cancelled.body;
 }
 
 TEST_F(OfficeMakeup, AsksForAccommodationsAndTakesNoneForGranted) {
@@ -85,18 +94,27 @@ TEST_F(OfficeMakeup, AsksForAccommodationsAndTakesNoneForGranted) {
   EXPECT_EQ(missed["makeup"], json::array({"missed", "interrupted"}));
   const std::size_t before = opened_.content().entries.size();
   EXPECT_EQ(make_up(missed, {{"accommodations", ""}}).status, 400);
-  EXPECT_EQ(make_up(missed, {{"accommodations", "these"}, {"extra_time_percent", 0.25}}).status, 400) << "a quarter more is 25";
+  EXPECT_EQ(make_up(missed, {{"accommodations", "these"}, {"extra_time_percent", 0.25}}).status,
+            400)
+      << "a quarter more is 25";
   EXPECT_EQ(make_up(missed, {{"accommodations", "these"}}).status, 400) << "none is said";
-  EXPECT_EQ(make_up(missed, {{"accommodations", "these"}, {"extra_time_percent", 4000}}).status, 400);
+  EXPECT_EQ(make_up(missed, {{"accommodations", "these"}, {"extra_time_percent", 4000}}).status,
+            400);
   EXPECT_EQ(make_up(missed, {{"reason", ""}}).status, 400);
   EXPECT_EQ(make_up(missed, {{"became", "ill"}}).status, 400);
   EXPECT_EQ(make_up(missed, {{"until", "2020-01-01T00:00:00Z"}}).status, 400);
   EXPECT_EQ(opened_.content().entries.size(), before) << "none of all that added anything";
   EXPECT_EQ(officer_.get("/api/attendance").json()["missing"].size(), 1u);
-  ASSERT_EQ(make_up(missed, {{"became", "missed"}, {"accommodations", "these"}, {"extra_time_percent", 25}, {"high_contrast", true}}).status, 200);
+  ASSERT_EQ(make_up(missed, {{"became", "missed"},
+                             {"accommodations", "these"},
+                             {"extra_time_percent", 25},
+                             {"high_contrast", true}})
+                .status,
+            200);
   const auto grant = records::parse_ticket(opened_.station().tickets()[0]["text"], "", "t").grant;
-  EXPECT_EQ(grant,
-            (std::vector<std::pair<std::string, std::string>>{{"accommodation.extra_time_percent", "25"}, {"accommodation.high_contrast", "true"}}));
+  EXPECT_EQ(grant, (std::vector<std::pair<std::string, std::string>>{
+                       {"accommodation.extra_time_percent", "25"},
+                       {"accommodation.high_contrast", "true"}}));
   const json missing = officer_.get("/api/attendance").json()["missing"];
   ASSERT_EQ(missing.size(), 1u) << "the makeup alone is waited for";
   EXPECT_EQ(missing[0]["no_show"], false);
@@ -105,27 +123,34 @@ TEST_F(OfficeMakeup, AsksForAccommodationsAndTakesNoneForGranted) {
 TEST_F(OfficeMakeup, WhoMissedTheExamHasWhatTheFirstTicketGrantedAsLongAsItIsKept) {
   const json missed = issued("id,extra_time_percent\n4711,25\n", -3, -2);
   EXPECT_TRUE(opened_.station().tickets().empty()) << "no station gets what ran out";
-  EXPECT_EQ(row(missed["entry"])["grant_kept"], true);
+  EXPECT_EQ(row(missed["entry"])["grant_stored"], true);
   ASSERT_EQ(make_up(missed, {{"became", "missed"}, {"accommodations", "as before"}}).status, 200);
-  EXPECT_EQ(records::parse_ticket(opened_.station().tickets()[0]["text"], "", "t").grant.at(0).second, "25");
-  EXPECT_EQ(row(missed["entry"])["grant_kept"], true) << "the makeup may be cancelled still";
+  EXPECT_EQ(
+      records::parse_ticket(opened_.station().tickets()[0]["text"], "", "t").grant.at(0).second,
+      "25");
+  EXPECT_EQ(row(missed["entry"])["grant_stored"], true) << "the makeup may be cancelled still";
   auto station = opened_.station();
-  static_cast<void>(station.begin(records::parse_ticket(station.tickets()[0]["text"], "", "t").nonce));
+  static_cast<void>(
+      station.begin(records::parse_ticket(station.tickets()[0]["text"], "", "t").nonce));
   static_cast<void>(station.tickets());
-  EXPECT_EQ(row(missed["entry"])["grant_kept"], false) << "for nothing any more";
+  EXPECT_EQ(row(missed["entry"])["grant_stored"], false) << "for nothing any more";
 }
 
 TEST_F(OfficeMakeup, WhatWasFiledTellsItsOwnGrant) {
   const json first = issued("id,extra_time_percent,left_handed\n4711,25,yes\n", -1, 1);
   auto station = opened_.station();
   const std::string ticket = station.tickets()[0]["text"];
-  const Bytes image = read_file(opened_.school().sit(ticket, "expert", [](scenarios::ExamOptions& o) { o.grant = {25, {}, true, {}}; }));
+  const Bytes image =
+      read_file(opened_.school().sit(ticket, "expert", [](scenarios::ExamOptions& o) {
+        o.grant = {25, {}, true, {}};
+      }));
   station.hand_in(image);
   ASSERT_EQ(Opened::outcome(station, to_hex(sha256(image)))["state"], "filed");
   EXPECT_EQ(row(first["entry"])["at_station"], false);
-  EXPECT_EQ(row(first["entry"])["grant_kept"], true);
+  EXPECT_EQ(row(first["entry"])["grant_stored"], true);
   ASSERT_EQ(make_up(first, {{"accommodations", "as before"}}).status, 200);
-  EXPECT_EQ(records::parse_ticket(opened_.station().tickets()[0]["text"], "", "t").grant, records::parse_ticket(ticket, "", "t").grant);
+  EXPECT_EQ(records::parse_ticket(opened_.station().tickets()[0]["text"], "", "t").grant,
+            records::parse_ticket(ticket, "", "t").grant);
 }
 
 TEST_F(OfficeMakeup, TheTicketOfWhoHasBegunIsCancelledOnlyWhereThatIsMeant) {
@@ -161,9 +186,14 @@ TEST_F(OfficeMakeup, OfTwoFiledSittingsReleasesTheMakeup) {
   ASSERT_EQ(results.size(), 2u);
   EXPECT_EQ(results[0]["state"], "made up");
   EXPECT_EQ(results[1]["makes_up"], first["entry"]);
-  EXPECT_EQ(officer_.post("/api/release", {{"all", true}, {"reason", "board"}, {"code", opened_.code(-1)}}).json()["released"], 1);
+  EXPECT_EQ(
+      officer_
+          .post("/api/release", {{"all", true}, {"reason", "board"}, {"code", opened_.code(-1)}})
+          .json()["released"],
+      1);
   const std::string book = officer_.get("/api/gradebook.csv").body;
-  EXPECT_NE(book.find(fmt::format(" {})", first["entry"].get<int>())), std::string::npos) << "which it makes up: " << book;
+  EXPECT_NE(book.find(fmt::format(" {})", first["entry"].get<int>())), std::string::npos)
+      << "which it makes up: " << book;
   EXPECT_TRUE(records::read_registry(opened_.content()).findings.empty());
 }
 

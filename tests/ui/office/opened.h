@@ -1,4 +1,5 @@
-// An office that is open: a school with a ledger and an enrolled station, accounts of each role, and the server on a free port of this computer.
+// An office that is open: a school with a ledger and an enrolled station, accounts of each role,
+// and the server on a free port of this computer.
 #pragma once
 
 #include <chrono>
@@ -22,18 +23,25 @@ inline constexpr char k_password[] = "correct horse trial";
 class Opened {
  public:
   explicit Opened(const office::HttpLimits& limits = {}) : limits_(limits) {
-    for (const office::Role r : office::all_roles()) accounts().set(name_of(r), r, k_password, r == office::Role::officer);
+    for (const office::Role r : office::all_roles())
+      accounts().set(name_of(r), r, k_password, r == office::Role::officer);
     open();
   }
-  [[nodiscard]] static std::string name_of(office::Role r) { return "The " + std::string(office::name_of(r)); }
+  [[nodiscard]] static std::string name_of(office::Role r) {
+    return "The " + std::string(office::name_of(r));
+  }
   [[nodiscard]] std::string home() const { return school_.file("office"); }
-  [[nodiscard]] office::Accounts accounts() const { return office::Accounts(home() + "/accounts.json"); }
+  [[nodiscard]] office::Accounts accounts() const {
+    return office::Accounts(home() + "/accounts.json");
+  }
   [[nodiscard]] const testing_ledger::School& school() const { return school_; }
   [[nodiscard]] std::uint16_t port() const { return port_; }
   [[nodiscard]] std::string address() const { return "https://127.0.0.1:" + std::to_string(port_); }
   [[nodiscard]] std::string certificate() const { return home() + "/certificate.pem"; }
   [[nodiscard]] std::string id() const { return records::read_ledger(school_.places()).id; }
-  [[nodiscard]] records::LedgerContent content() const { return records::read_ledger(school_.places()); }
+  [[nodiscard]] records::LedgerContent content() const {
+    return records::read_ledger(school_.places());
+  }
 
   void open() {
     office::OfficeOptions o;
@@ -46,8 +54,12 @@ class Opened {
     o.limits = limits_;
     o.filing.simulated = rehearsal_;
     o.proxy = proxy_;
-    o.report = [](const std::string& recording) { return "<p>" + recording + "</p><script>1</script>"; };
-    o.student_report = [](const std::string& recording) { return "<p>student's " + recording + "</p><script>1</script>"; };
+    o.report = [](const std::string& recording) {
+      return "<p>" + recording + "</p><script>1</script>";
+    };
+    o.student_report = [](const std::string& recording) {
+      return "<p>student's " + recording + "</p><script>1</script>";
+    };
     if (port_ != 0) o.port = port_;  // where it was before
     office::make_certificate(o.certificate, {"127.0.0.1", "localhost"});
     office_ = std::make_unique<office::Office>(o);
@@ -68,22 +80,31 @@ class Opened {
   }
   /// The station of this CAVUM_HOME.
   [[nodiscard]] office::StationClient station() const {
-    return {"https://127.0.0.1:" + std::to_string(port()), certificate(), to_hex(testing_ledger::School::key().public_key),
-            load_station_key(station_key_path())};
+    return {"https://127.0.0.1:" + std::to_string(port()), certificate(),
+            to_hex(testing_ledger::School::key().public_key), load_station_key(station_key_path())};
   }
-  /// A code of the officer's second factor: of this half minute, or of one beside it, which is good, too. Each is good once, and none before it then.
-  [[nodiscard]] std::string code(int steps_on = 0) const { return code_of(name_of(office::Role::officer), steps_on); }
+  /// A code of the officer's second factor: of this half minute, or of one beside it, which is
+  /// good, too. Each is good once, and none before it then.
+  [[nodiscard]] std::string code(int steps_on = 0) const {
+    return code_of(name_of(office::Role::officer), steps_on);
+  }
   /// The same of another account.
   [[nodiscard]] std::string code_of(const std::string& name, int steps_on = 0) const {
     const auto secret = office::from_base32(accounts().of(name)->code_secret);
-    return office::one_time_code(*secret, static_cast<std::uint64_t>(read_clocks().utc_ns / 1'000'000'000 / office::k_code_step_s + steps_on));
+    return office::one_time_code(
+        *secret, static_cast<std::uint64_t>(
+                     read_clocks().utc_ns / 1'000'000'000 / office::k_code_step_s + steps_on));
   }
   /// A class list as the page sends it.
-  [[nodiscard]] static nlohmann::json list(const std::string& text, const std::vector<std::string>& answers = {}) {
-    return {{"base64", to_base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()})}, {"answers", answers}};
+  [[nodiscard]] static nlohmann::json list(const std::string& text,
+                                           const std::vector<std::string>& answers = {}) {
+    return {
+        {"base64", to_base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()})},
+        {"answers", answers}};
   }
   /// Tickets of an hour around now for these numbers.
-  [[nodiscard]] Heard issue(const Visitor& officer, const std::string& numbers, bool begin_at_office = false, bool another = false) const {
+  [[nodiscard]] Heard issue(const Visitor& officer, const std::string& numbers,
+                            bool begin_at_office = false, bool another = false) const {
     const std::int64_t now = read_clocks().utc_ns;
     nlohmann::json asked = list("id\n" + numbers);
     asked.update({{"exam", "block_cavity"},
@@ -95,7 +116,8 @@ class Opened {
     return officer.post("/api/roster/issue", asked);
   }
   /// Waits until a recording is filed or refused.
-  [[nodiscard]] static nlohmann::json outcome(office::StationClient& station, const std::string& sha256) {
+  [[nodiscard]] static nlohmann::json outcome(office::StationClient& station,
+                                              const std::string& sha256) {
     for (int i = 0; i < 1200; ++i) {
       nlohmann::json state = station.handed(sha256);
       if (state["state"] != "waiting") return state;

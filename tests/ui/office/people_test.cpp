@@ -13,14 +13,21 @@ using testing_basics::bytes_of;
 
 TEST(OneTimeCode, IsWhatRfc6238Prints) {  // appendix B, SHA-1
   const Bytes secret = bytes_of("12345678901234567890");
-  const std::pair<std::uint64_t, const char*> vectors[] = {{59, "94287082"},         {1111111109, "07081804"}, {1111111111, "14050471"},
-                                                           {1234567890, "89005924"}, {2000000000, "69279037"}, {20000000000, "65353130"}};
-  for (const auto& [time, code] : vectors) EXPECT_EQ(one_time_code(secret, time / 30, 8), code) << time;
+  const std::pair<std::uint64_t, const char*> vectors[] = {
+      {59, "94287082"},         {1111111109, "07081804"}, {1111111111, "14050471"},
+      {1234567890, "89005924"}, {2000000000, "69279037"}, {20000000000, "65353130"}};
+  for (const auto& [time, code] : vectors)
+    EXPECT_EQ(one_time_code(secret, time / 30, 8), code) << time;
 }
 
 TEST(OneTimeCode, ItsSecretIsTypedAsRfc4648Prints) {  // section 10, without padding
-  const std::pair<const char*, const char*> vectors[] = {
-      {"", ""}, {"f", "MY"}, {"fo", "MZXQ"}, {"foo", "MZXW6"}, {"foob", "MZXW6YQ"}, {"fooba", "MZXW6YTB"}, {"foobar", "MZXW6YTBOI"}};
+  const std::pair<const char*, const char*> vectors[] = {{"", ""},
+                                                         {"f", "MY"},
+                                                         {"fo", "MZXQ"},
+                                                         {"foo", "MZXW6"},
+                                                         {"foob", "MZXW6YQ"},
+                                                         {"fooba", "MZXW6YTB"},
+                                                         {"foobar", "MZXW6YTBOI"}};
   for (const auto& [text, typed] : vectors) {
     EXPECT_EQ(base32(bytes_of(text)), typed);
     EXPECT_EQ(from_base32(typed), bytes_of(text));
@@ -30,7 +37,8 @@ TEST(OneTimeCode, ItsSecretIsTypedAsRfc4648Prints) {  // section 10, without pad
 
 TEST(OneTimeCode, IsGoodForAStepBeforeAndAfterAndOnce) {
   const Bytes secret = new_code_secret();
-  for (const int step : {-1, 0, 1}) EXPECT_EQ(counter_of_code(secret, one_time_code(secret, 1000 + step), 30'000), 1000 + step);
+  for (const int step : {-1, 0, 1})
+    EXPECT_EQ(counter_of_code(secret, one_time_code(secret, 1000 + step), 30'000), 1000 + step);
   EXPECT_EQ(counter_of_code(secret, one_time_code(secret, 998), 30'000), std::nullopt);
   EXPECT_EQ(counter_of_code(secret, one_time_code(secret, 1002), 30'000), std::nullopt);
   EXPECT_EQ(counter_of_code(secret, "", 30'000), std::nullopt);
@@ -87,7 +95,9 @@ TEST(Accounts, RefuseShortPasswordsNamesOfTwoLinesAndFilesOfSomethingElse) {
   EXPECT_THROW(accounts.set("Anna\nEva", Role::officer, k_password, false), Error);
   EXPECT_THROW(accounts.set("", Role::officer, k_password, false), Error);
   EXPECT_FALSE(std::filesystem::exists(accounts.path()));
-  write_text_file(accounts.path(), R"({"format":"cavum accounts 1","accounts":[{"name":"A","role":"king","password":"$argon2id$x"}]})");
+  write_text_file(
+      accounts.path(),
+      R"({"format":"cavum accounts 1","accounts":[{"name":"A","role":"king","password":"$argon2id$x"}]})");
   EXPECT_THROW(static_cast<void>(accounts.all()), Error);
 }
 
@@ -123,16 +133,22 @@ TEST(SignIns, TooManyTriesWaitAMinute) {
 TEST(SignIn, GuessingIsSlowedDownAndTheCookieIsHttpsOnly) {
   const Opened opened;
   Visitor v = opened.visitor();
-  const std::string set = v.sign_in(Opened::name_of(Role::reader), k_password).fields.at("set-cookie");
-  for (const char* part : {"__Host-cavum=", "Path=/", "Secure", "HttpOnly", "SameSite=Strict"}) EXPECT_NE(set.find(part), std::string::npos) << set;
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(opened.visitor().sign_in(Opened::name_of(Role::officer), "wrong password").status, 401);
+  const std::string set =
+      v.sign_in(Opened::name_of(Role::reader), k_password).fields.at("set-cookie");
+  for (const char* part : {"__Host-cavum=", "Path=/", "Secure", "HttpOnly", "SameSite=Strict"})
+    EXPECT_NE(set.find(part), std::string::npos) << set;
+  for (int i = 0; i < 5; ++i)
+    EXPECT_EQ(opened.visitor().sign_in(Opened::name_of(Role::officer), "wrong password").status,
+              401);
   EXPECT_EQ(opened.visitor().sign_in(Opened::name_of(Role::officer), k_password).status, 429);
-  EXPECT_EQ(opened.visitor().sign_in(Opened::name_of(Role::examiner), k_password).status, 200) << "another's account";
+  EXPECT_EQ(opened.visitor().sign_in(Opened::name_of(Role::examiner), k_password).status, 200)
+      << "another's account";
 }
 
 TEST(SignIn, IsOverWhenItIsEndedOrTheAccountIsGoneOrChanged) {
   const Opened opened;
-  const Visitor a = opened.signed_in(Role::reader), b = opened.signed_in(Role::reader), c = opened.signed_in(Role::invigilator);
+  const Visitor a = opened.signed_in(Role::reader), b = opened.signed_in(Role::reader),
+                c = opened.signed_in(Role::invigilator);
   EXPECT_EQ(a.post("/api/sign-out", {}).status, 200);
   EXPECT_EQ(a.get("/api/me").status, 401);
   EXPECT_EQ(b.get("/api/me").status, 200);

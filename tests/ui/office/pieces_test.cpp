@@ -1,4 +1,5 @@
-// Exams in pieces: what is taken and what is not, that nothing mixes, and a line that breaks in the middle.
+// Exams in pieces: what is taken and what is not, that nothing mixes, and a line that breaks in the
+// middle.
 #include "ui/office/pieces.h"
 
 #include <boost/asio.hpp>
@@ -20,7 +21,8 @@ const std::string k_one(64, '1'), k_two(64, '2');
 
 std::string some_bytes(std::size_t size, std::uint64_t seed) {
   std::string out(size, '\0');
-  for (char& c : out) c = static_cast<char>((seed = seed * 6364136223846793005U + 1442695040888963407U) >> 56);
+  for (char& c : out)
+    c = static_cast<char>((seed = seed * 6364136223846793005U + 1442695040888963407U) >> 56);
   return out;
 }
 
@@ -40,7 +42,9 @@ class InPieces : public testing::Test {
     const std::filesystem::directory_iterator all(folder_.file("pieces"));
     return static_cast<std::size_t>(std::distance(begin(all), end(all)));
   }
-  static std::string_view part(const std::string& all, std::size_t at, std::size_t size) { return std::string_view(all).substr(at, size); }
+  static std::string_view part(const std::string& all, std::size_t at, std::size_t size) {
+    return std::string_view(all).substr(at, size);
+  }
 
   static constexpr std::size_t k_size = 300'000, k_piece = 100'000;
   test::Folder folder_;
@@ -60,7 +64,8 @@ TEST_F(InPieces, AreOneExamWhenAllCameAlsoOverARestart) {
   EXPECT_EQ(pieces.have(k_one, hash_).of, k_size);
   EXPECT_TRUE(pieces.add(k_one, hash_, k_piece, k_size, part(exam_, k_piece, k_piece)).taken);
   EXPECT_TRUE(wholes_.empty());
-  EXPECT_TRUE(pieces.add(k_one, hash_, 2 * k_piece, k_size, part(exam_, 2 * k_piece, k_piece)).whole);
+  EXPECT_TRUE(
+      pieces.add(k_one, hash_, 2 * k_piece, k_size, part(exam_, 2 * k_piece, k_piece)).whole);
   EXPECT_EQ(wholes_.at(hash_), exam_);
   EXPECT_EQ(files(), 0u);
   EXPECT_EQ(pieces.have(k_one, hash_).of, 0u);
@@ -68,16 +73,21 @@ TEST_F(InPieces, AreOneExamWhenAllCameAlsoOverARestart) {
 
 TEST_F(InPieces, AreTakenOnceInTheirOrderAndAreNotReplaced) {
   Pieces pieces = make();
-  EXPECT_FALSE(pieces.add(k_one, hash_, k_piece, k_size, part(exam_, k_piece, k_piece)).taken) << "the first is missing";
+  EXPECT_FALSE(pieces.add(k_one, hash_, k_piece, k_size, part(exam_, k_piece, k_piece)).taken)
+      << "the first is missing";
   static_cast<void>(pieces.add(k_one, hash_, 0, k_size, part(exam_, 0, k_piece)));
   const std::string other = some_bytes(k_piece, 2);
   const auto again = pieces.add(k_one, hash_, 0, k_size, other);
   EXPECT_FALSE(again.taken) << "what is there stays";
   EXPECT_EQ(again.have, k_piece);
-  EXPECT_FALSE(pieces.add(k_one, hash_, 2 * k_piece, k_size, part(exam_, 2 * k_piece, k_piece)).taken) << "a gap";
-  EXPECT_FALSE(pieces.add(k_one, hash_, k_piece, k_size + 1, part(exam_, k_piece, k_piece)).taken) << "another size";
+  EXPECT_FALSE(
+      pieces.add(k_one, hash_, 2 * k_piece, k_size, part(exam_, 2 * k_piece, k_piece)).taken)
+      << "a gap";
+  EXPECT_FALSE(pieces.add(k_one, hash_, k_piece, k_size + 1, part(exam_, k_piece, k_piece)).taken)
+      << "another size";
   static_cast<void>(pieces.add(k_one, hash_, k_piece, k_size, part(exam_, k_piece, k_piece)));
-  EXPECT_TRUE(pieces.add(k_one, hash_, 2 * k_piece, k_size, part(exam_, 2 * k_piece, k_piece)).whole);
+  EXPECT_TRUE(
+      pieces.add(k_one, hash_, 2 * k_piece, k_size, part(exam_, 2 * k_piece, k_piece)).whole);
   EXPECT_EQ(wholes_.at(hash_), exam_);
 }
 
@@ -88,17 +98,22 @@ TEST_F(InPieces, OfTwoStationsDoNotMix) {
     EXPECT_TRUE(pieces.add(k_one, hash_, at, k_size, part(exam_, at, k_piece)).taken);
     EXPECT_TRUE(pieces.add(k_two, hash_, at, k_size, part(wrong, at, k_piece)).taken);
   }
-  EXPECT_THROW(static_cast<void>(pieces.add(k_two, hash_, 2 * k_piece, k_size, part(wrong, 2 * k_piece, k_piece))), Error) << "another hash";
+  EXPECT_THROW(static_cast<void>(pieces.add(k_two, hash_, 2 * k_piece, k_size,
+                                            part(wrong, 2 * k_piece, k_piece))),
+               Error)
+      << "another hash";
   EXPECT_TRUE(wholes_.empty());
   EXPECT_EQ(pieces.have(k_two, hash_).of, 0u) << "it is begun anew";
-  EXPECT_TRUE(pieces.add(k_one, hash_, 2 * k_piece, k_size, part(exam_, 2 * k_piece, k_piece)).whole);
+  EXPECT_TRUE(
+      pieces.add(k_one, hash_, 2 * k_piece, k_size, part(exam_, 2 * k_piece, k_piece)).whole);
   EXPECT_EQ(wholes_.at(hash_), exam_);
 }
 
 TEST_F(InPieces, AreLimitedInSizeNumberAndLife) {
   Pieces pieces = make({.of_a_station = 2, .all_bytes = 3 * k_size});
   const auto refused = [&](std::uint64_t at, std::uint64_t of, const std::string& bytes) {
-    EXPECT_THROW(static_cast<void>(pieces.add(k_one, hash_, at, of, bytes)), Error) << at << " of " << of << ": " << bytes.size();
+    EXPECT_THROW(static_cast<void>(pieces.add(k_one, hash_, at, of, bytes)), Error)
+        << at << " of " << of << ": " << bytes.size();
   };
   refused(0, k_size, "");
   refused(0, 0, "x");
@@ -118,7 +133,8 @@ TEST_F(InPieces, AreLimitedInSizeNumberAndLife) {
   EXPECT_EQ(pieces.have(k_one, std::string(64, 'a')).of, 0u);
   EXPECT_EQ(files(), 2u);
   EXPECT_TRUE(first_piece(k_two, 'a'));
-  EXPECT_THROW(static_cast<void>(first_piece(k_two, 'b')), DatabaseError) << "there is no more room for all";
+  EXPECT_THROW(static_cast<void>(first_piece(k_two, 'b')), DatabaseError)
+      << "there is no more room for all";
   now_s_ += k_life_of_pieces_s + 1;
   EXPECT_EQ(pieces.have(k_one, std::string(64, 'b')).of, 0u);
   EXPECT_EQ(files(), 0u);
@@ -127,7 +143,8 @@ TEST_F(InPieces, AreLimitedInSizeNumberAndLife) {
 /// Between a station and the office: a line that breaks after so many bytes.
 class PoorLine {
  public:
-  explicit PoorLine(std::uint16_t office) : acceptor_(context_, {boost::asio::ip::make_address("127.0.0.1"), 0}), office_(office) {
+  explicit PoorLine(std::uint16_t office)
+      : acceptor_(context_, {boost::asio::ip::make_address("127.0.0.1"), 0}), office_(office) {
     worker_ = std::thread([this] { serve(); });
   }
   ~PoorLine() {
@@ -135,7 +152,9 @@ class PoorLine {
     ::shutdown(acceptor_.native_handle(), SHUT_RDWR);
     worker_.join();
   }
-  [[nodiscard]] std::string address() { return "https://127.0.0.1:" + std::to_string(acceptor_.local_endpoint().port()); }
+  [[nodiscard]] std::string address() {
+    return "https://127.0.0.1:" + std::to_string(acceptor_.local_endpoint().port());
+  }
   std::atomic<std::size_t> breaks_after = 0, sent = 0;
 
  private:
@@ -184,7 +203,8 @@ TEST(PiecesOverTheNetwork, GoOnWhereTheLineBroke) {
   int broken = 0;
   json said;
   while (said.is_null() && broken < 50) {
-    StationClient station(line.address(), opened.certificate(), to_hex(School::key().public_key), load_station_key(station_key_path()));
+    StationClient station(line.address(), opened.certificate(), to_hex(School::key().public_key),
+                          load_station_key(station_key_path()));
     try {
       said = station.hand_in(image);
     } catch (const OfficeUnreachable&) {
@@ -209,7 +229,8 @@ TEST(PiecesOverTheNetwork, OfAnExamAreFiled) {
   const std::string target = "/station/pieces/" + to_hex(sha256(image));
   const auto put = [&](std::size_t at, std::size_t size) {
     const auto first = image.begin() + static_cast<std::ptrdiff_t>(at);
-    return station.ask("PUT", fmt::format("{}?at={}&of={}", target, at, image.size()), {first, first + static_cast<std::ptrdiff_t>(size)});
+    return station.ask("PUT", fmt::format("{}?at={}&of={}", target, at, image.size()),
+                       {first, first + static_cast<std::ptrdiff_t>(size)});
   };
   std::size_t at = 0;
   Answer last;
@@ -222,9 +243,11 @@ TEST(PiecesOverTheNetwork, OfAnExamAreFiled) {
   }
   EXPECT_EQ(last.status, 202);
   EXPECT_EQ(Opened::outcome(station, to_hex(sha256(image)))["state"], "filed");
-  for (const char* query : {"", "?at=0", "?of=9&at=0", "?at=-1&of=9", "?at=0&of=9999999999", "?at=0&of=9&x=1"})
+  for (const char* query :
+       {"", "?at=0", "?of=9&at=0", "?at=-1&of=9", "?at=0&of=9999999999", "?at=0&of=9&x=1"})
     EXPECT_EQ(station.ask("PUT", target + query, "x").status, 400) << query;
-  EXPECT_EQ(opened.visitor().ask("PUT", target + "?at=0&of=1", "x").status, 401) << "no station signed it";
+  EXPECT_EQ(opened.visitor().ask("PUT", target + "?at=0&of=1", "x").status, 401)
+      << "no station signed it";
 }
 
 }  // namespace

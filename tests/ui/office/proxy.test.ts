@@ -4,7 +4,18 @@ import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { k_skip } from "../report_test/chromium.ts";
-import { add_account, address, browser, close_office, look, open_office, press, refused, serve_with, type } from "./browser.ts";
+import {
+  add_account,
+  address,
+  browser,
+  close_office,
+  look,
+  open_office,
+  press,
+  refused,
+  serve_with,
+  type,
+} from "./browser.ts";
 
 const secret = "0123456789abcdef0123456789abcdef";
 before(async () => {
@@ -23,7 +34,8 @@ test("a sign-in by the school's account", { skip: k_skip }, async () => {
   const page = await context.newPage();
   const complaints: string[] = [];
   page.on("pageerror", (e) => complaints.push(String(e)));
-  const by_proxy = (who: string) => page.setExtraHTTPHeaders({ "X-Auth-Request-Email": who, "X-Cavum-Proxy-Secret": secret });
+  const by_proxy = (who: string) =>
+    page.setExtraHTTPHeaders({ "X-Auth-Request-Email": who, "X-Cavum-Proxy-Secret": secret });
   await by_proxy("nobody@uni.example");
   await page.goto(address);
   await page.waitForSelector("form");
@@ -35,7 +47,7 @@ test("a sign-in by the school's account", { skip: k_skip }, async () => {
   await page.keyboard.press("Enter");
   await page.waitForSelector("nav");
   assert.ok((await page.$eval("header", (h) => h.innerText)).includes("Eva Stein, examiner"));
-  await by_proxy("nobody@uni.example");  // another person at this computer
+  await by_proxy("nobody@uni.example"); // another person at this computer
   await page.reload();
   await page.waitForSelector("form");
   assert.equal(await page.$("nav"), null);

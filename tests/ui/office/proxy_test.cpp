@@ -1,4 +1,5 @@
-// Sign-in by a reverse proxy: believed from its address and with the secret alone, for accounts that exist, with the office's own roles.
+// Sign-in by a reverse proxy: believed from its address and with the secret alone, for accounts
+// that exist, with the office's own roles.
 #include "ui/office/proxy.h"
 
 #include "engine/base/error.h"
@@ -20,21 +21,30 @@ Fields by_proxy(const std::string& who, const std::string& secret = k_secret) {
 
 TEST(ProxyWord, IsBelievedFromItsAddressWithItsSecretAlone) {
   const ProxySignOn proxy = proxy_sign_on("192.0.2.7", k_secret, "X-Auth-Request-Email");
-  const auto heard = [&](const std::string& address, const std::map<std::string, std::string>& fields) {
+  const auto heard = [&](const std::string& address,
+                         const std::map<std::string, std::string>& fields) {
     Head head;
     head.address = address, head.fields = fields;
     return proxy_word(head, proxy);
   };
-  const std::map<std::string, std::string> right = {{"x-auth-request-email", k_eva}, {"x-cavum-proxy-secret", k_secret}};
+  const std::map<std::string, std::string> right = {{"x-auth-request-email", k_eva},
+                                                    {"x-cavum-proxy-secret", k_secret}};
   EXPECT_EQ(heard("192.0.2.7", right).known_as, k_eva);
-  EXPECT_EQ(heard("::ffff:192.0.2.7", right).known_as, k_eva) << "the same address at a socket for IPv6";
+  EXPECT_EQ(heard("::ffff:192.0.2.7", right).known_as, k_eva)
+      << "the same address at a socket for IPv6";
   EXPECT_TRUE(heard("192.0.2.8", right).refused);
   EXPECT_TRUE(heard("192.0.2.70", right).refused);
   EXPECT_TRUE(heard("", right).refused);
-  EXPECT_TRUE(heard("192.0.2.7", {{"x-auth-request-email", k_eva}}).refused) << "without the secret";
-  EXPECT_TRUE(heard("192.0.2.7", {{"x-auth-request-email", k_eva}, {"x-cavum-proxy-secret", k_secret + "0"}}).refused);
-  EXPECT_TRUE(heard("192.0.2.7", {{"x-auth-request-email", k_eva}, {"x-cavum-proxy-secret", ""}}).refused);
-  EXPECT_TRUE(heard("192.0.2.7", {{"x-auth-request-email", "two\nlines"}, {"x-cavum-proxy-secret", k_secret}}).refused);
+  EXPECT_TRUE(heard("192.0.2.7", {{"x-auth-request-email", k_eva}}).refused)
+      << "without the secret";
+  EXPECT_TRUE(heard("192.0.2.7",
+                    {{"x-auth-request-email", k_eva}, {"x-cavum-proxy-secret", k_secret + "0"}})
+                  .refused);
+  EXPECT_TRUE(
+      heard("192.0.2.7", {{"x-auth-request-email", k_eva}, {"x-cavum-proxy-secret", ""}}).refused);
+  EXPECT_TRUE(heard("192.0.2.7",
+                    {{"x-auth-request-email", "two\nlines"}, {"x-cavum-proxy-secret", k_secret}})
+                  .refused);
   EXPECT_FALSE(heard("192.0.2.8", {}).refused) << "a station, or a person with a password";
   const ProxyWord nobody = heard("192.0.2.7", {{"x-cavum-proxy-secret", k_secret}});
   EXPECT_FALSE(nobody.refused);
@@ -46,14 +56,16 @@ TEST(ProxyWord, IsBelievedFromItsAddressWithItsSecretAlone) {
 
 TEST(ProxyWord, IsSetUpOnlyWithAnAddressAFieldAndASecretThatAreSome) {
   EXPECT_EQ(proxy_sign_on("::0001", k_secret, "Remote-User").address, "::1");
-  for (const auto& [address, secret, field] : {std::tuple<std::string, std::string, std::string>{"proxy.example", k_secret, "Remote-User"},
-                                               {"", k_secret, "Remote-User"},
-                                               {"127.0.0.1/8", k_secret, "Remote-User"},
-                                               {"127.0.0.1", "short", "Remote-User"},
-                                               {"127.0.0.1", k_secret, ""},
-                                               {"127.0.0.1", k_secret, "Remote User"},
-                                               {"127.0.0.1", k_secret, "X-Cavum-Proxy-Secret"}})
-    EXPECT_THROW(static_cast<void>(proxy_sign_on(address, secret, field)), Error) << address << " " << field;
+  for (const auto& [address, secret, field] :
+       {std::tuple<std::string, std::string, std::string>{"proxy.example", k_secret, "Remote-User"},
+        {"", k_secret, "Remote-User"},
+        {"127.0.0.1/8", k_secret, "Remote-User"},
+        {"127.0.0.1", "short", "Remote-User"},
+        {"127.0.0.1", k_secret, ""},
+        {"127.0.0.1", k_secret, "Remote User"},
+        {"127.0.0.1", k_secret, "X-Cavum-Proxy-Secret"}})
+    EXPECT_THROW(static_cast<void>(proxy_sign_on(address, secret, field)), Error)
+        << address << " " << field;
 }
 
 class BehindAProxy : public testing::Test {
@@ -84,21 +96,28 @@ TEST_F(BehindAProxy, APersonWithAnAccountHasItsRole) {
   EXPECT_EQ(me["name"], "Eva Stein");
   EXPECT_EQ(me["role"], "examiner");
   EXPECT_EQ(v.ask("GET", "/api/queue", "", by_proxy(k_eva)).status, 200);
-  EXPECT_EQ(v.ask("POST", "/api/release", "{}", by_proxy(k_eva)).status, 403) << "roles stay the office's";
+  EXPECT_EQ(v.ask("POST", "/api/release", "{}", by_proxy(k_eva)).status, 403)
+      << "roles stay the office's";
 }
 
 TEST_F(BehindAProxy, NobodyElseComesIn) {
   Visitor v = opened_.visitor();
   EXPECT_EQ(sign_in(v, by_proxy("mallory@uni.example")).status, 403) << "no account";
   EXPECT_EQ(sign_in(v, by_proxy("EVA.stein@uni.example")).status, 403) << "letter by letter";
-  EXPECT_EQ(sign_in(v, by_proxy("Eva Stein")).status, 403) << "an account's name is not what the proxy says";
+  EXPECT_EQ(sign_in(v, by_proxy("Eva Stein")).status, 403)
+      << "an account's name is not what the proxy says";
   EXPECT_EQ(sign_in(v, by_proxy("")).status, 401);
   EXPECT_EQ(sign_in(v, {}).status, 401);
   EXPECT_EQ(sign_in(v, by_proxy(k_eva, std::string(32, '0'))).status, 403);
   EXPECT_EQ(sign_in(v, {{"X-Auth-Request-Email", k_eva}}).status, 403);
-  EXPECT_EQ(sign_in(v, {{"X-Auth-Request-Email", k_eva}, {"x-auth-request-EMAIL", k_eva}, {"X-Cavum-Proxy-Secret", k_secret}}).status, 400)
+  EXPECT_EQ(sign_in(v, {{"X-Auth-Request-Email", k_eva},
+                        {"x-auth-request-EMAIL", k_eva},
+                        {"X-Cavum-Proxy-Secret", k_secret}})
+                .status,
+            400)
       << "twice";
-  EXPECT_EQ(v.ask("GET", "/", "", {{"X-Auth-Request-Email", k_eva}}).status, 403) << "whatever is asked";
+  EXPECT_EQ(v.ask("GET", "/", "", {{"X-Auth-Request-Email", k_eva}}).status, 403)
+      << "whatever is asked";
   EXPECT_EQ(v.ask("POST", "/api/sign-in/proxy", "{}",
                   [] {
                     Fields f = by_proxy(k_eva);
@@ -114,11 +133,13 @@ TEST_F(BehindAProxy, ASignInLastsOnlyAsLongAsTheProxySaysSo) {
   Visitor v = opened_.visitor();
   ASSERT_EQ(sign_in(v, by_proxy(k_eva)).status, 200);
   EXPECT_EQ(v.get("/api/me").status, 401) << "the cookie without the proxy";
-  EXPECT_EQ(v.ask("GET", "/api/me", "", by_proxy("mallory@uni.example")).status, 401) << "another person at the same computer";
+  EXPECT_EQ(v.ask("GET", "/api/me", "", by_proxy("mallory@uni.example")).status, 401)
+      << "another person at the same computer";
   EXPECT_EQ(v.ask("GET", "/api/me", "", by_proxy(k_eva)).status, 200);
   opened_.accounts().remove("Eva Stein");
   EXPECT_EQ(v.ask("GET", "/api/me", "", by_proxy(k_eva)).status, 401);
-  EXPECT_EQ(opened_.signed_in(Role::officer).get("/api/me").status, 200) << "by a password, as ever";
+  EXPECT_EQ(opened_.signed_in(Role::officer).get("/api/me").status, 200)
+      << "by a password, as ever";
 }
 
 TEST_F(BehindAProxy, FromAnotherAddressNothingIsBelieved) {

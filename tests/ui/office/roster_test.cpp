@@ -1,4 +1,5 @@
-// A class list in any encoding and separator: what it holds arrives, and what nobody asked about is asked.
+// A class list in any encoding and separator: what it holds arrives, and what nobody asked about is
+// asked.
 #include "ui/office/roster.h"
 
 #include <gtest/gtest.h>
@@ -30,11 +31,12 @@ std::string utf16(const std::u16string& text, bool big_endian) {
 
 TEST(Roster, ReadsTheSameInEveryEncodingAndWithEverySeparator) {
   const std::string utf8 = "id,name\n1,M\u00fcller \u2013 \u20ac\n";
-  const std::pair<std::string, std::string> encoded[] = {{utf8, "UTF-8"},
-                                                         {"\xef\xbb\xbf" + utf8, "UTF-8"},
-                                                         {utf16(u"id,name\n1,M\u00fcller \u2013 \u20ac\n", false), "UTF-16"},
-                                                         {utf16(u"id,name\n1,M\u00fcller \u2013 \u20ac\n", true), "UTF-16"},
-                                                         {"id,name\n1,M\xfcller \x96 \x80\n", "Windows-1252"}};
+  const std::pair<std::string, std::string> encoded[] = {
+      {utf8, "UTF-8"},
+      {"\xef\xbb\xbf" + utf8, "UTF-8"},
+      {utf16(u"id,name\n1,M\u00fcller \u2013 \u20ac\n", false), "UTF-16"},
+      {utf16(u"id,name\n1,M\u00fcller \u2013 \u20ac\n", true), "UTF-16"},
+      {"id,name\n1,M\xfcller \x96 \x80\n", "Windows-1252"}};
   for (const auto& [bytes, name] : encoded) {
     const Roster r = read_roster(bytes, {});
     EXPECT_EQ(r.encoding, name);
@@ -60,13 +62,15 @@ TEST(Roster, AsksAboutEachColumnThatItDoesNotKnow) {
   EXPECT_EQ(asked.columns[1].use, "name") << "whatever its capitals";
   for (const int c : {0, 2, 3}) EXPECT_EQ(asked.columns[static_cast<std::size_t>(c)].use, "");
   EXPECT_EQ(asked.columns[3].samples, (std::vector<std::string>{"3", "4"}));
-  EXPECT_EQ(asked.columns[2].samples, (std::vector<std::string>{"25"})) << "of who has none nothing is shown";
+  EXPECT_EQ(asked.columns[2].samples, (std::vector<std::string>{"25"}))
+      << "of who has none nothing is shown";
   EXPECT_FALSE(read_roster(text, {"id", "", "extra_time_percent", ""}).ready()) << "one waits";
   const Roster answered = read_roster(text, {"id", "", "extra_time_percent", k_pass_over});
   ASSERT_TRUE(answered.ready()) << problem_of(answered);
   EXPECT_EQ(answered.people[0].grant.extra_time_percent, 25.0);
   EXPECT_EQ(answered.people[1].grant.extra_time_percent, std::nullopt);
-  EXPECT_FALSE(read_roster(text, {"something", "", "extra_time_percent", k_pass_over}).ready()) << "no such use";
+  EXPECT_FALSE(read_roster(text, {"something", "", "extra_time_percent", k_pass_over}).ready())
+      << "no such use";
 }
 
 TEST(Roster, TakesTheSeparatorThatASpreadsheetNames) {
@@ -86,17 +90,22 @@ TEST(Roster, TellsAllMistakesEachOnALine) {
   EXPECT_FALSE(r.ready());
   EXPECT_EQ(std::ranges::count(problem_of(r), '\n'), 2) << problem_of(r);
   /// Of each line its mistake: the place, and how many fields it has.
-  const auto expect_told = [](const Roster& roster, const std::vector<std::pair<std::string, Value>>& wanted) {
+  const auto expect_told = [](const Roster& roster,
+                              const std::vector<std::pair<std::string, Value>>& wanted) {
     ASSERT_EQ(roster.problems.size(), wanted.size()) << problem_of(roster);
     for (std::size_t i = 0; i < wanted.size(); ++i)
-      EXPECT_TRUE(tells(roster.problems[i], wanted[i].first) && tells(roster.problems[i], wanted[i].second)) << roster.problems[i];
+      EXPECT_TRUE(tells(roster.problems[i], wanted[i].first) &&
+                  tells(roster.problems[i], wanted[i].second))
+          << roster.problems[i];
   };
   const auto fields = [](std::int64_t n) { return Value(n); };
-  expect_told(r, {{"the list:2", fields(1)}, {"the list:3", fields(3)}, {"the list:5", Value(Name{"3"})}});
+  expect_told(
+      r, {{"the list:2", fields(1)}, {"the list:3", fields(3)}, {"the list:5", Value(Name{"3"})}});
   const Roster asked = read_roster("id;Place\n1\n2;B\n3;C;D\n", {});
   EXPECT_EQ(asked.columns.size(), 2u);
   EXPECT_EQ(asked.columns[1].samples, (std::vector<std::string>{"B", "C"}));
-  expect_told(asked, {{"the list:2", fields(1)}, {"the list:4", fields(3)}});  // also while a column waits
+  expect_told(asked,
+              {{"the list:2", fields(1)}, {"the list:4", fields(3)}});  // also while a column waits
 }
 
 TEST(Roster, SaysWhatIsWrong) {
@@ -124,13 +133,16 @@ TEST(Roster, JoinsSurnameAndFirstName) {
   EXPECT_EQ(joined.people[1].name, "Stein, zu");
   EXPECT_EQ(joined.people[2].name, "Eva");
   EXPECT_EQ(joined.columns[3].use, "name") << "as it was answered";
-  EXPECT_TRUE(tells(read_roster("id;Nachname;Vorname\n1;Weber\n", {"id", "name", "name"}).problems, Value(std::int64_t{3})));
+  EXPECT_TRUE(tells(read_roster("id;Nachname;Vorname\n1;Weber\n", {"id", "name", "name"}).problems,
+                    Value(std::int64_t{3})));
 }
 
 TEST(Roster, SaysWhetherAKnownNameStandsInTheFirstLine) {
   EXPECT_TRUE(read_roster("Matrikel;NAME\n1;A\n", {}).headed);
-  EXPECT_FALSE(read_roster("4711;Ada\n4712;Bert\n", {}).headed) << "the first candidate would be lost";
-  EXPECT_FALSE(read_roster("4711;Ada\n4712;Bert\n", {"id", "name"}).headed) << "whatever was answered";
+  EXPECT_FALSE(read_roster("4711;Ada\n4712;Bert\n", {}).headed)
+      << "the first candidate would be lost";
+  EXPECT_FALSE(read_roster("4711;Ada\n4712;Bert\n", {"id", "name"}).headed)
+      << "whatever was answered";
 }
 
 TEST(Roster, TakesGermanYesAndNoAndACross) {

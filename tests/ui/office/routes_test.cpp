@@ -1,4 +1,5 @@
-// Who may go which route: the table against one that is written here, and the running server against both.
+// Who may go which route: the table against one that is written here, and the running server
+// against both.
 #include "ui/office/routes.h"
 
 #include <set>
@@ -10,8 +11,8 @@ namespace {
 
 using namespace testing_office;
 
-/// Letters of roles: o officer, e examiner, i invigilator, r reader; - nobody has to be known, s a station, c who came from a learning
-/// platform, f a form that a platform sends.
+/// Letters of roles: o officer, e examiner, i invigilator, r reader; - nobody has to be known, s a
+/// station, c who came from a learning platform, f a form that a platform sends.
 const std::map<std::string, std::string> k_expected = {
     {"GET /", "-"},
     {"GET /office.js", "-"},
@@ -81,7 +82,9 @@ const std::map<std::string, std::string> k_expected = {
     {"GET /station/sessions/*", "s"},
 };
 
-std::string name_of_route(const Route& route) { return std::string(route.method) + " " + std::string(route.path); }
+std::string name_of_route(const Route& route) {
+  return std::string(route.method) + " " + std::string(route.path);
+}
 
 TEST(Routes, AreThoseOfThisTableAndNoOthers) {
   std::map<std::string, std::string> found;
@@ -94,7 +97,8 @@ TEST(Routes, AreThoseOfThisTableAndNoOthers) {
     if (route.asks == Asks::person)
       for (const Role r : all_roles())
         if (route.lets(r)) who += name_of(r)[0];
-    EXPECT_TRUE(found.emplace(name_of_route(route), who).second) << name_of_route(route) << " twice";
+    EXPECT_TRUE(found.emplace(name_of_route(route), who).second)
+        << name_of_route(route) << " twice";
     if (route.asks != Asks::person) {
       EXPECT_EQ(route.roles, 0U);
     }
@@ -112,9 +116,11 @@ TEST(Routes, OnlyTheExactPathIsOne) {
   EXPECT_NE(route_for("GET", "/api/me"), nullptr);
   const std::string hash(64, 'a');
   EXPECT_NE(route_for("PUT", "/station/sessions/" + hash), nullptr);
-  for (const std::string path : {"/api/me/", "/API/me", "//api/me", "/api/../api/me", "/api/%6de", "/api/me;x", "", "api/me"})
+  for (const std::string path : {"/api/me/", "/API/me", "//api/me", "/api/../api/me", "/api/%6de",
+                                 "/api/me;x", "", "api/me"})
     EXPECT_EQ(route_for("GET", path), nullptr) << path;
-  for (const std::string& tail : {std::string(64, 'A'), std::string(63, 'a'), std::string(65, 'a'), "../" + std::string(61, 'a'), std::string()})
+  for (const std::string& tail : {std::string(64, 'A'), std::string(63, 'a'), std::string(65, 'a'),
+                                  "../" + std::string(61, 'a'), std::string()})
     EXPECT_EQ(route_for("PUT", "/station/sessions/" + tail), nullptr) << tail;
   EXPECT_EQ(route_for("HEAD", "/"), nullptr);
   EXPECT_EQ(route_for("DELETE", "/api/me"), nullptr);
@@ -129,18 +135,20 @@ TEST(Wire, ARefusalNamesTheField) {
     }
     return {};
   };
-  const nlohmann::json right = {{"base64", "aWQK"}, {"exam", "e"}, {"from", "f"}, {"until", "u"}, {"reason", "r"}};
+  const nlohmann::json right = {
+      {"base64", "aWQK"}, {"exam", "e"}, {"from", "f"}, {"until", "u"}, {"reason", "r"}};
   EXPECT_EQ(why(right), "");
-  for (const auto& [field, value] : std::vector<std::pair<std::string, nlohmann::json>>{{"base64", 1},
-                                                                                        {"answers", "id"},
-                                                                                        {"exam", std::string(k_longest_line + 1, 'x')},
-                                                                                        {"reason", " "},
-                                                                                        {"reason", nullptr},
-                                                                                        {"another", 1},
-                                                                                        {"at_once", 0},
-                                                                                        {"minutes_apart", 10'081},
-                                                                                        {"first", -1},
-                                                                                        {"most", 1.5}}) {
+  for (const auto& [field, value] : std::vector<std::pair<std::string, nlohmann::json>>{
+           {"base64", 1},
+           {"answers", "id"},
+           {"exam", std::string(k_longest_line + 1, 'x')},
+           {"reason", " "},
+           {"reason", nullptr},
+           {"another", 1},
+           {"at_once", 0},
+           {"minutes_apart", 10'081},
+           {"first", -1},
+           {"most", 1.5}}) {
     nlohmann::json wrong = right;
     wrong[field] = value;
     EXPECT_NE(why(wrong).find("'" + field + "'"), std::string::npos) << wrong << why(wrong);
@@ -164,12 +172,14 @@ TEST(Wire, WhatIsWrittenReadsBack) {
   EXPECT_EQ(read.decided->by, "Eva");
 }
 
-/// Every route with every role, signed in and not, with the token and without: the server lets in exactly whom the table names.
+/// Every route with every role, signed in and not, with the token and without: the server lets in
+/// exactly whom the table names.
 class EveryRoute : public testing::Test {
  protected:
   static void SetUpTestSuite() { opened_ = new Opened(); }
   static void TearDownTestSuite() { delete opened_; }
-  static Heard try_route(const Visitor& v, const Route& route, const std::map<std::string, std::string>& more = {}) {
+  static Heard try_route(const Visitor& v, const Route& route,
+                         const std::map<std::string, std::string>& more = {}) {
     if (route.path.ends_with("/events")) {  // it does not end
       Wire wire(v.port);
       wire.send("GET " + std::string(route.path) + " HTTP/1.1\r\nHost: x\r\n" +
@@ -177,8 +187,9 @@ class EveryRoute : public testing::Test {
       const std::string begin = wire.hear_for(std::chrono::milliseconds(700));
       return {begin.size() > 12 ? std::stoi(begin.substr(9, 3)) : 0, {}, begin};
     }
-    return v.ask(std::string(route.method), route.path_of(route.path.ends_with('*') ? std::string(64, '0') : ""), route.method == "GET" ? "" : "{}",
-                 more);
+    return v.ask(std::string(route.method),
+                 route.path_of(route.path.ends_with('*') ? std::string(64, '0') : ""),
+                 route.method == "GET" ? "" : "{}", more);
   }
   static inline Opened* opened_ = nullptr;
 };
@@ -198,7 +209,8 @@ TEST_F(EveryRoute, IsClosedToThoseWhoHaveNotSignedIn) {
 TEST_F(EveryRoute, LetsInExactlyTheRolesOfTheTable) {
   for (const Role role : all_roles()) {
     for (const Route& route : routes()) {
-      if (route.asks == Asks::nobody || route.asks == Asks::form || route.path == "/api/sign-out") continue;
+      if (route.asks == Asks::nobody || route.asks == Asks::form || route.path == "/api/sign-out")
+        continue;
       static std::map<Role, Visitor> known;
       if (!known.contains(role)) known[role] = opened_->signed_in(role);
       const Visitor& v = known[role];
@@ -209,15 +221,21 @@ TEST_F(EveryRoute, LetsInExactlyTheRolesOfTheTable) {
       else if (expected.find(name_of(role)[0]) == std::string::npos)
         EXPECT_EQ(status, 403) << name_of_route(route) << " for " << name_of(role);
       else
-        EXPECT_TRUE(status == 200 || status == 400) << name_of_route(route) << " for " << name_of(role) << ": " << status;
+        EXPECT_TRUE(status == 200 || status == 400)
+            << name_of_route(route) << " for " << name_of(role) << ": " << status;
       if (route.asks != Asks::person || !route.changes()) continue;
-      EXPECT_EQ(try_route(v, route, {{"X-Cavum-Token", "-"}}).status, 403) << name_of_route(route) << " without token";
-      EXPECT_EQ(try_route(v, route, {{"X-Cavum-Token", std::string(64, 'f')}}).status, 403) << name_of_route(route) << " with another token";
-      EXPECT_EQ(try_route(v, route, {{"Origin", "https://elsewhere.example"}}).status, 403) << name_of_route(route) << " from another page";
-      EXPECT_EQ(try_route(v, route, {{"Content-Type", "text/plain"}}).status, 415) << name_of_route(route) << " as a form could send it";
+      EXPECT_EQ(try_route(v, route, {{"X-Cavum-Token", "-"}}).status, 403)
+          << name_of_route(route) << " without token";
+      EXPECT_EQ(try_route(v, route, {{"X-Cavum-Token", std::string(64, 'f')}}).status, 403)
+          << name_of_route(route) << " with another token";
+      EXPECT_EQ(try_route(v, route, {{"Origin", "https://elsewhere.example"}}).status, 403)
+          << name_of_route(route) << " from another page";
+      EXPECT_EQ(try_route(v, route, {{"Content-Type", "text/plain"}}).status, 415)
+          << name_of_route(route) << " as a form could send it";
     }
   }
-  EXPECT_EQ(opened_->content().entries.size(), testing_ledger::k_first_entries) << "none of all that added anything";
+  EXPECT_EQ(opened_->content().entries.size(), testing_ledger::k_first_entries)
+      << "none of all that added anything";
 }
 
 TEST_F(EveryRoute, ATokenOfAnotherSignInIsNone) {

@@ -4,10 +4,29 @@ import { readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { k_skip } from "../report_test/chromium.ts";
-import { add_account, close_office, code_of, control, desk, folder, go, invite, look, open_office, refused, run, said, station, task, type } from "./browser.ts";
+import {
+  add_account,
+  close_office,
+  code_of,
+  control,
+  desk,
+  folder,
+  go,
+  invite,
+  look,
+  open_office,
+  refused,
+  run,
+  said,
+  station,
+  task,
+  type,
+} from "./browser.ts";
 import { issue } from "./hall.ts";
 
-before(async () => { if (!k_skip) await open_office("seat"); });
+before(async () => {
+  if (!k_skip) await open_office("seat");
+});
 after(close_office);
 
 test("a new rubric over a class by keys", { skip: k_skip }, async () => {
@@ -19,21 +38,39 @@ test("a new rubric over a class by keys", { skip: k_skip }, async () => {
   station("seat", "tickets", "--out", join(folder, "tickets"));
   const tickets = readdirSync(join(folder, "tickets")).filter((f) => f.endsWith(".ticket"));
   tickets.forEach((t, i) => {
-    run("seat", ["exam", task, "--ticket", join(folder, "tickets", t), "--operator", "expert", "--seed", String(i + 1), "--out", join(folder, `e${i}.cavum`)]);
+    run("seat", [
+      "exam",
+      task,
+      "--ticket",
+      join(folder, "tickets", t),
+      "--operator",
+      "expert",
+      "--seed",
+      String(i + 1),
+      "--out",
+      join(folder, `e${i}.cavum`),
+    ]);
     station("seat", "file", join(folder, `e${i}.cavum`));
   });
 
   const rubric = join(folder, "new.toml");
-  writeFileSync(rubric, '[rubric]\nrule = "compensatory"\npass_percent = 10\n[[rubric.criteria]]\nid = "removed"\nmetric = "target_removed_percent"\nfull = 50\nzero = 0\npoints = 10\n');
+  writeFileSync(
+    rubric,
+    '[rubric]\nrule = "compensatory"\npass_percent = 10\n[[rubric.criteria]]\nid = "removed"\nmetric = "target_removed_percent"\nfull = 50\nzero = 0\npoints = 10\n',
+  );
   const eva = await desk("Eva Second");
   await go(eva.page, "New rubric");
   await look(eva, "rubric-choice");
   await eva.page.select(await control(eva.page, "Exam"), "border_cavity");
-  await (await eva.page.$(await control(eva.page, "The new rubric")) as import("puppeteer-core").ElementHandle<HTMLInputElement>).uploadFile(rubric);
+  await (
+    (await eva.page.$(
+      await control(eva.page, "The new rubric"),
+    )) as import("puppeteer-core").ElementHandle<HTMLInputElement>
+  ).uploadFile(rubric);
   await eva.page.focus("main button.main");
   await eva.page.keyboard.press("Enter");
   await said(eva.page, "tried by Eva Second");
-  await eva.page.reload();  // it goes on without its page
+  await eva.page.reload(); // it goes on without its page
   await eva.page.waitForSelector("nav");
   await go(eva.page, "New rubric");
   await said(eva.page, "Who would change: 2");
@@ -43,7 +80,11 @@ test("a new rubric over a class by keys", { skip: k_skip }, async () => {
   await look(eva, "rubric-preview");
 
   await go(page, "Results");
-  assert.equal((await page.$$("::-p-xpath(//nav//a[normalize-space()='New rubric'])")).length, 0, "no officer's view");
+  assert.equal(
+    (await page.$$("::-p-xpath(//nav//a[normalize-space()='New rubric'])")).length,
+    0,
+    "no officer's view",
+  );
   await type(eva.page, "Reason", "question 3 was misprinted");
   await type(eva.page, "Code of your app", "000000");
   await eva.page.keyboard.press("Enter");

@@ -18,8 +18,11 @@ namespace cavum::testing_office {
 
 class Served {
  public:
-  /// `port` 0: any that is free. `most_bytes`: no file of its may grow beyond, as on a disk that is full; 0: any size.
-  explicit Served(const testing_ledger::School& school, std::uint16_t port = 0, std::uintmax_t most_bytes = 0) : out_(school.file("served.txt")) {
+  /// `port` 0: any that is free. `most_bytes`: no file of its may grow beyond, as on a disk that is
+  /// full; 0: any size.
+  explicit Served(const testing_ledger::School& school, std::uint16_t port = 0,
+                  std::uintmax_t most_bytes = 0)
+      : out_(school.file("served.txt")) {
     const std::string listen = "127.0.0.1:" + std::to_string(port);
     std::filesystem::remove(out_);
     pid_ = ::fork();
@@ -32,15 +35,17 @@ class Served {
         ::setrlimit(RLIMIT_FSIZE, &limit);
         ::signal(SIGXFSZ, SIG_IGN);
       }
-      ::execl(CAVUM_BINARY, CAVUM_BINARY, "serve", school.ledger_folder().c_str(), "--listen", listen.c_str(), "--exam",
-              testing_ledger::k_scenario.c_str(), static_cast<char*>(nullptr));
+      ::execl(CAVUM_BINARY, CAVUM_BINARY, "serve", school.ledger_folder().c_str(), "--listen",
+              listen.c_str(), "--exam", testing_ledger::k_scenario.c_str(),
+              static_cast<char*>(nullptr));
       ::_exit(127);
     }
     for (int i = 0; i < 600 && port_.empty(); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
       const std::string said = std::filesystem::exists(out_) ? read_text_file(out_) : "";
       std::smatch address;
-      if (std::regex_search(said, address, std::regex("https://127\\.0\\.0\\.1:(\\d+)\\D"))) port_ = address[1];
+      if (std::regex_search(said, address, std::regex("https://127\\.0\\.0\\.1:(\\d+)\\D")))
+        port_ = address[1];
     }
     EXPECT_FALSE(port_.empty()) << read_text_file(out_);
   }

@@ -1,5 +1,5 @@
-// A station that speaks with the office by itself: tickets, board, word, pauses and recordings, with and without a network; and an exam's ticks,
-// which are the same whatever the network does.
+// A station that speaks with the office by itself: tickets, board, word, pauses and recordings,
+// with and without a network; and an exam's ticks, which are the same whatever the network does.
 #include "ui/office/station_link.h"
 
 #include <arpa/inet.h>
@@ -39,13 +39,21 @@ class AStation : public testing::Test {
  protected:
   AStation() : officer_(opened_.signed_in(Role::officer)) {
     fs::create_directories(folder("exams"));
-    link_ = {opened_.address(), opened_.certificate(), opened_.content().public_key, folder("tickets"), {folder("exams")}};
+    link_ = {opened_.address(),
+             opened_.certificate(),
+             opened_.content().public_key,
+             folder("tickets"),
+             {folder("exams")}};
   }
-  [[nodiscard]] std::string folder(const std::string& name) const { return opened_.school().file(name); }
-  [[nodiscard]] std::unique_ptr<StationLink> begin() const { return std::make_unique<StationLink>(link_, load_station_key(station_key_path())); }
+  [[nodiscard]] std::string folder(const std::string& name) const {
+    return opened_.school().file(name);
+  }
+  [[nodiscard]] std::unique_ptr<StationLink> begin() const {
+    return std::make_unique<StationLink>(link_, load_station_key(station_key_path()));
+  }
   [[nodiscard]] json said() const {
     const json board = officer_.get("/api/board").json();
-    return board["stations"][0]["said"];
+    return board["stations"][0]["report"];
   }
   /// A short exam of a ticket that was issued now.
   [[nodiscard]] std::string sit(const std::string& number) const {
@@ -57,7 +65,9 @@ class AStation : public testing::Test {
     sit_shortly(k_scenario, path, text);
     return path;
   }
-  [[nodiscard]] std::size_t filed() const { return records::read_registry(opened_.content()).sessions.size(); }
+  [[nodiscard]] std::size_t filed() const {
+    return records::read_registry(opened_.content()).sessions.size();
+  }
 
   Opened opened_;
   Visitor officer_;
@@ -69,15 +79,22 @@ TEST_F(AStation, FetchesTicketsAndGivesBackWhatIsCancelled) {
   const auto link = begin();
   const auto tickets = [&] {
     std::size_t n = 0;
-    for (const auto& f : fs::directory_iterator(folder("tickets"))) n += f.path().extension() == ".ticket" ? 1 : 0;
+    for (const auto& f : fs::directory_iterator(folder("tickets")))
+      n += f.path().extension() == ".ticket" ? 1 : 0;
     return n;
   };
   ASSERT_TRUE(within(10, [&] { return tickets() == 2; }));
-  for (const auto& f : fs::directory_iterator(folder("tickets"))) EXPECT_NO_THROW(static_cast<void>(records::read_ticket(f.path().string())));
+  for (const auto& f : fs::directory_iterator(folder("tickets")))
+    EXPECT_NO_THROW(static_cast<void>(records::read_ticket(f.path().string())));
   const json all = officer_.get("/api/tickets").json();
-  ASSERT_EQ(officer_.post("/api/tickets/cancel", {{"entry", all["tickets"][0]["entry"]}, {"reason", "ill"}}).status, 200);
+  ASSERT_EQ(
+      officer_
+          .post("/api/tickets/cancel", {{"entry", all["tickets"][0]["entry"]}, {"reason", "ill"}})
+          .status,
+      200);
   EXPECT_TRUE(within(10, [&] { return tickets() == 1; }));
-  EXPECT_FALSE(fs::exists(folder("tickets/" + all["tickets"][0]["candidate"].get<std::string>() + ".ticket")));
+  EXPECT_FALSE(fs::exists(
+      folder("tickets/" + all["tickets"][0]["candidate"].get<std::string>() + ".ticket")));
   ASSERT_EQ(opened_.issue(officer_, "4713\n").status, 200);
   EXPECT_TRUE(within(10, [&] { return tickets() == 2; }));
 }
@@ -91,14 +108,17 @@ TEST_F(AStation, TheBoardShowsWhatItDoesAndItHearsWhatTheOfficeSays) {
   report.left_s = 61;
   link->say(report);
   EXPECT_TRUE(within(5, [&] { return said()["state"] == "exam" && said()["left_s"] == 61; }));
-  const json told = officer_.post("/api/announce", {{"text", "Five minutes more."}, {"to", {{"all", true}}}}).json();
+  const json told =
+      officer_.post("/api/announce", {{"text", "Five minutes more."}, {"to", {{"all", true}}}})
+          .json();
   ASSERT_TRUE(within(5, [&] { return link->view().told.size() == 1; }));
   EXPECT_EQ(link->view().told[0].text, "Five minutes more.");
   link->read(told["entry"]);
   EXPECT_TRUE(link->view().told.empty());
   EXPECT_TRUE(within(5, [&] { return said()["heard"] == told["entry"]; }));
   EXPECT_TRUE(link->view().told.empty());
-  const json hold = officer_.post("/api/hold", {{"reason", "fire alarm"}, {"to", {{"all", true}}}}).json();
+  const json hold =
+      officer_.post("/api/hold", {{"reason", "fire alarm"}, {"to", {{"all", true}}}}).json();
   ASSERT_TRUE(within(5, [&] { return link->view().hold == hold["entry"]; }));
   EXPECT_EQ(link->view().hold_reason, "fire alarm");
   opened_.close();
@@ -131,7 +151,8 @@ TEST_F(AStation, HandsInByItselfAlsoWhatWasSatWithoutANetworkAndBeforeItBegan) {
   const auto link = begin();  // at its next start, and the network comes back later
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   opened_.open();
-  ASSERT_TRUE(within(60, [&] { return StationLink::outcome(first) && StationLink::outcome(second); }));
+  ASSERT_TRUE(
+      within(60, [&] { return StationLink::outcome(first) && StationLink::outcome(second); }));
   EXPECT_TRUE(StationLink::outcome(first)->filed);
   EXPECT_GT(StationLink::outcome(second)->entry, 0u);
   EXPECT_EQ(filed(), 2u);
@@ -149,16 +170,22 @@ TEST_F(AStation, HandsInByItselfAlsoWhatWasSatWithoutANetworkAndBeforeItBegan) {
 TEST_F(AStation, HandsInNothingThatIsUnderWayOpenOrNobodysAndSaysWhatWasRefused) {
   const std::string under_way = sit("4711"), spoilt = sit("4712");
   write_text_file(folder("exams/none.cavum"), "no session");
-  sit_shortly(k_scenario, folder("exams/stranger.cavum"), School().ticket("1"));  // another school's
+  sit_shortly(k_scenario, folder("exams/stranger.cavum"),
+              School().ticket("1"));  // another school's
   ::setenv("CAVUM_HOME", opened_.school().file("station").c_str(), 1);
   const json all = officer_.get("/api/tickets").json();
-  ASSERT_EQ(officer_.post("/api/tickets/cancel", {{"entry", all["tickets"][1]["entry"]}, {"reason", "ill"}}).status, 200);
+  ASSERT_EQ(
+      officer_
+          .post("/api/tickets/cancel", {{"entry", all["tickets"][1]["entry"]}, {"reason", "ill"}})
+          .status,
+      200);
   auto link = std::make_unique<StationLink>(link_, load_station_key(station_key_path()));
   link->recording(under_way);
   ASSERT_TRUE(within(60, [&] { return StationLink::outcome(spoilt).has_value(); }));
   EXPECT_FALSE(StationLink::outcome(spoilt)->filed);
   EXPECT_FALSE(StationLink::outcome(spoilt)->findings.empty());
-  EXPECT_TRUE(within(10, [&] { return link->view().failed == std::vector<std::string>{"4712.cavum"}; }));
+  EXPECT_TRUE(
+      within(10, [&] { return link->view().failed == std::vector<std::string>{"4712.cavum"}; }));
   EXPECT_FALSE(StationLink::outcome(under_way));
   link->recording("");
   link->hand_in();
@@ -202,7 +229,8 @@ TEST_F(AStation, EndsWithinAMomentAndNeverWaitsWhateverTheNetworkDoes) {
     link->say({});
     static_cast<void>(link->view());
     link->hand_in();
-    EXPECT_LT(std::chrono::duration<double>(Steady::now() - from).count(), 0.5) << "of a computer that does other things, too";
+    EXPECT_LT(std::chrono::duration<double>(Steady::now() - from).count(), 0.5)
+        << "of a computer that does other things, too";
   }
   const auto from = Steady::now();
   link.reset();
@@ -222,7 +250,8 @@ Ticks sat(const std::string& path, double seconds) {
   const auto device = scenarios::make_candidate_device(*setup, "expert", 1);
   scenarios::LiveExam live(*setup, path, *device, device->start_mm());
   live.start();
-  while (static_cast<double>(live.view().ticks) < 1000.0 * seconds) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  while (static_cast<double>(live.view().ticks) < 1000.0 * seconds)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
   live.ask_to_end();
   while (live.running()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   EXPECT_EQ(live.finish().first_disagreement, -1);
@@ -249,10 +278,13 @@ TEST_F(AStation, TheTicksOfAnExamAreTheSameWithAnOfficeWithOneThatIsMuteAndWitho
       std::unique_ptr<StationLink> link;
       link_.server = server;
       if (!server.empty()) link = begin();
-      const std::string path = folder("ticks-" + std::to_string(runs.size()) + "-" + std::to_string(i) + ".cavum");
-      if (Ticks t = sat(path, k_seconds); t.inputs.size() > longest.inputs.size()) longest = std::move(t);
+      const std::string path =
+          folder("ticks-" + std::to_string(runs.size()) + "-" + std::to_string(i) + ".cavum");
+      if (Ticks t = sat(path, k_seconds); t.inputs.size() > longest.inputs.size())
+        longest = std::move(t);
     }
-    std::printf("%s: %zu ticks without a late one\n", server.empty() ? "no office" : server.c_str(), longest.inputs.size());
+    std::printf("%s: %zu ticks without a late one\n", server.empty() ? "no office" : server.c_str(),
+                longest.inputs.size());
     runs.push_back(std::move(longest));
   }
   for (std::size_t i = 1; i < runs.size(); ++i) {

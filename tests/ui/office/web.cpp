@@ -38,20 +38,28 @@ struct Wire::Parts {
 
 Wire::Wire(std::uint16_t port) : parts_(std::make_unique<Parts>()) {
   const asio::ip::tcp::endpoint end(asio::ip::make_address("127.0.0.1"), port);
-  if (!parts_->wait(k_wait, [&](auto done) { beast::get_lowest_layer(parts_->stream).async_connect(end, done); }))
-    parts_->wait(k_wait, [&](auto done) { parts_->stream.async_handshake(asio::ssl::stream_base::client, done); });
+  if (!parts_->wait(k_wait, [&](auto done) {
+        beast::get_lowest_layer(parts_->stream).async_connect(end, done);
+      }))
+    parts_->wait(k_wait, [&](auto done) {
+      parts_->stream.async_handshake(asio::ssl::stream_base::client, done);
+    });
 }
 Wire::~Wire() = default;
 
 bool Wire::send(const std::string& bytes) {
-  return !parts_->wait(k_wait, [&](auto done) { asio::async_write(parts_->stream, asio::buffer(bytes), done); });
+  return !parts_->wait(
+      k_wait, [&](auto done) { asio::async_write(parts_->stream, asio::buffer(bytes), done); });
 }
 
 Heard Wire::hear() {
   http::response_parser<http::string_body> parser;
   parser.body_limit(64U << 20);
   Heard out;
-  if (parts_->wait(k_wait, [&](auto done) { http::async_read(parts_->stream, parts_->heard, parser, done); })) return out;
+  if (parts_->wait(k_wait, [&](auto done) {
+        http::async_read(parts_->stream, parts_->heard, parser, done);
+      }))
+    return out;
   out.status = static_cast<int>(parser.get().result_int());
   out.body = parser.get().body();
   for (const auto& f : parser.get()) {
@@ -62,15 +70,17 @@ Heard Wire::hear() {
   return out;
 }
 
-std::string Wire::hear_for(std::chrono::milliseconds time, const std::function<bool(const std::string&)>& enough) {
+std::string Wire::hear_for(std::chrono::milliseconds time,
+                           const std::function<bool(const std::string&)>& enough) {
   std::string out, piece(64U << 10, '\0');
   beast::get_lowest_layer(parts_->stream).expires_after(time);
   for (bool ended = false; !ended && !(enough && enough(out));) {
     ended = true;
-    parts_->stream.async_read_some(asio::buffer(piece), [&](beast::error_code error, std::size_t more) {
-      out.append(piece, 0, more);
-      ended = error.failed();
-    });
+    parts_->stream.async_read_some(asio::buffer(piece),
+                                   [&](beast::error_code error, std::size_t more) {
+                                     out.append(piece, 0, more);
+                                     ended = error.failed();
+                                   });
     parts_->context.restart();
     parts_->context.run();
   }
@@ -79,7 +89,8 @@ std::string Wire::hear_for(std::chrono::milliseconds time, const std::function<b
 
 Heard Visitor::ask(const std::string& method, const std::string& path, const std::string& body,
                    const std::map<std::string, std::string>& more) const {
-  std::map<std::string, std::string> fields{{"Host", "127.0.0.1"}, {"Content-Length", std::to_string(body.size())}};
+  std::map<std::string, std::string> fields{{"Host", "127.0.0.1"},
+                                            {"Content-Length", std::to_string(body.size())}};
   if (method != "GET") fields["Content-Type"] = "application/json";
   if (!cookie.empty()) fields["Cookie"] = "__Host-cavum=" + cookie;
   if (!token.empty() && method != "GET") fields["X-Cavum-Token"] = token;
@@ -93,7 +104,8 @@ Heard Visitor::ask(const std::string& method, const std::string& path, const std
 }
 
 Heard Visitor::sign_in(const std::string& name, const std::string& password) {
-  Heard heard = ask("POST", "/api/sign-in", nlohmann::json{{"name", name}, {"password", password}}.dump());
+  Heard heard =
+      ask("POST", "/api/sign-in", nlohmann::json{{"name", name}, {"password", password}}.dump());
   if (heard.status != 200) return heard;
   token = heard.json()["token"];
   const std::string set = heard.fields.at("set-cookie");

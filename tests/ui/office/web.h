@@ -1,4 +1,5 @@
-// A browser's side of the office's server, byte by byte, for tests: what is sent is what the test says, also what no browser would send.
+// A browser's side of the office's server, byte by byte, for tests: what is sent is what the test
+// says, also what no browser would send.
 #pragma once
 
 #include <chrono>
@@ -28,8 +29,10 @@ class Wire {
   bool send(const std::string& bytes);
   /// The next reply.
   [[nodiscard]] Heard hear();
-  /// All bytes that come within the time, or until `enough` of them have. The connection is of no use afterwards.
-  [[nodiscard]] std::string hear_for(std::chrono::milliseconds time, const std::function<bool(const std::string&)>& enough = {});
+  /// All bytes that come within the time, or until `enough` of them have. The connection is of no
+  /// use afterwards.
+  [[nodiscard]] std::string hear_for(std::chrono::milliseconds time,
+                                     const std::function<bool(const std::string&)>& enough = {});
 
  private:
   struct Parts;
@@ -44,8 +47,11 @@ struct Visitor {
   /// Throws nothing: a refusal leaves cookie and token empty.
   Heard sign_in(const std::string& name, const std::string& password);
   [[nodiscard]] Heard get(const std::string& path) const { return ask("GET", path, ""); }
-  [[nodiscard]] Heard post(const std::string& path, const nlohmann::json& body) const { return ask("POST", path, body.dump()); }
-  [[nodiscard]] Heard ask(const std::string& method, const std::string& path, const std::string& body,
+  [[nodiscard]] Heard post(const std::string& path, const nlohmann::json& body) const {
+    return ask("POST", path, body.dump());
+  }
+  [[nodiscard]] Heard ask(const std::string& method, const std::string& path,
+                          const std::string& body,
                           const std::map<std::string, std::string>& more = {}) const;
 };
 

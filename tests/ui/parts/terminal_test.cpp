@@ -23,7 +23,8 @@ Printed printed(const std::function<void()>& print) {
   std::fflush(nullptr);
   const ::pid_t child = ::fork();
   if (child == 0) {
-    if (std::freopen(folder.file("out").c_str(), "w", stdout) == nullptr || std::freopen(folder.file("err").c_str(), "w", stderr) == nullptr)
+    if (std::freopen(folder.file("out").c_str(), "w", stdout) == nullptr ||
+        std::freopen(folder.file("err").c_str(), "w", stderr) == nullptr)
       ::_exit(1);
     {
       const SafeTerminal terminal;
@@ -49,14 +50,16 @@ TEST(Terminal, NoCommandPassesByAnyWayOfPrinting) {
     std::cerr << "cerr \x1b]0;x\x07\n";
     std::puts("p\xc3\xa4uts");
   });
-  EXPECT_EQ(p.out, "printf ?[31m\ncout ?2J ?ssap\np\xc3\xa4uts\nafter\x1b") << "in order, and as before afterwards";
+  EXPECT_EQ(p.out, "printf ?[31m\ncout ?2J ?ssap\np\xc3\xa4uts\nafter\x1b")
+      << "in order, and as before afterwards";
   EXPECT_EQ(p.err, "fprintf ?\ncerr ?]0;x?\n");
 }
 
 TEST(Terminal, ACharacterThatIsPrintedInPiecesStaysOne) {
   const Printed p = printed([] {
     for (const char* piece : {"\xf0", "\x9f\xa6", "\xb7", " \xe2\x80"}) std::fputs(piece, stderr);
-    for (int i = 0; i < 5000; ++i) std::cout << "\xe2\x82\xac";  // past any buffer's end in the middle of one
+    for (int i = 0; i < 5000; ++i)
+      std::cout << "\xe2\x82\xac";  // past any buffer's end in the middle of one
   });
   EXPECT_EQ(p.err, "\xf0\x9f\xa6\xb7 ??") << "what never became one is shown as that";
   std::string euros;

@@ -17,7 +17,8 @@ using Clock = std::chrono::steady_clock;
 
 void rest_s(double s) { std::this_thread::sleep_for(std::chrono::duration<double>(s)); }
 
-constexpr Vec3 k_inverse3_middle_mm{0, -120, 150};  // of its space, where the crown's middle lies by the usual placement
+constexpr Vec3 k_inverse3_middle_mm{
+    0, -120, 150};  // of its space, where the crown's middle lies by the usual placement
 
 }  // namespace
 
@@ -26,7 +27,8 @@ void Means::await(const Eye& eye, const std::string& screen) {
   const auto began = Clock::now();
   while (eye().screen != screen) {
     if (std::chrono::duration<double>(Clock::now() - began).count() > k_patience_s)
-      throw std::runtime_error("the screen '" + screen + "' did not come, '" + eye().screen + "' shows");
+      throw std::runtime_error("the screen '" + screen + "' did not come, '" + eye().screen +
+                               "' shows");
     rest_s(0.1);
   }
   see(eye, 2);  // a person looks first
@@ -38,7 +40,8 @@ void Means::see(const Eye& eye, int pictures) {
   const std::int64_t until = eye().picture + pictures + 1;  // the running one may have begun before
   rest_s(k_at_least_s);
   while (eye().picture < until) {
-    if (std::chrono::duration<double>(Clock::now() - began).count() > k_patience_s) throw std::runtime_error("no picture came for a minute");
+    if (std::chrono::duration<double>(Clock::now() - began).count() > k_patience_s)
+      throw std::runtime_error("no picture came for a minute");
     rest_s(0.02);
   }
 }
@@ -75,7 +78,8 @@ Vec3 KeyboardMeans::move(Vec3 units) {
   // a tap is 0.05 mm; held for longer than 0.2 s a key goes on at 4 mm a second: docs/station.md
   constexpr double k_step = 0.05, k_wait_s = 0.2, k_mm_s = 4.0, k_tap_s = 0.03;
   const std::array<double, 3> way{units.x, units.y, units.z};
-  constexpr std::array<std::array<const char*, 2>, 3> k_keys{{{"Right", "Left"}, {"Up", "Down"}, {"Prior", "Next"}}};
+  constexpr std::array<std::array<const char*, 2>, 3> k_keys{
+      {{"Right", "Left"}, {"Up", "Down"}, {"Prior", "Next"}}};
   std::array<double, 3> did{};
   struct Let {
     double at_s;
@@ -89,7 +93,8 @@ Vec3 KeyboardMeans::move(Vec3 units) {
     const double far = std::fabs(way[i]);
     if (far < 0.5 * k_step) continue;
     const char* key = k_keys[i][way[i] > 0 ? 0 : 1];
-    lets.push_back({far < 1.5 * k_step ? k_tap_s : k_wait_s + (far - k_step) / k_mm_s, key, i, way[i] > 0 ? 1.0 : -1.0});
+    lets.push_back({far < 1.5 * k_step ? k_tap_s : k_wait_s + (far - k_step) / k_mm_s, key, i,
+                    way[i] > 0 ? 1.0 : -1.0});
   }
   std::sort(lets.begin(), lets.end(), [](const Let& a, const Let& b) { return a.at_s < b.at_s; });
   for (const Let& l : lets) {
@@ -98,7 +103,8 @@ Vec3 KeyboardMeans::move(Vec3 units) {
   }
   const auto began = Clock::now();
   for (const Let& l : lets) {
-    std::this_thread::sleep_until(began + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(l.at_s)));
+    std::this_thread::sleep_until(
+        began + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(l.at_s)));
     hand_.key(l.key, false);
     const double held_s = std::chrono::duration<double>(Clock::now() - since[l.axis]).count();
     did[l.axis] = l.sign * (k_step + k_mm_s * std::max(0.0, held_s - k_wait_s));
@@ -163,7 +169,8 @@ void MouseMeans::come_to_exam(const Eye& eye, int bur, int shelf) {
 
 Vec3 MouseMeans::move(Vec3 units) {
   constexpr double k_px = 20.0, k_notches = 10.0;
-  int x = static_cast<int>(std::lround(units.x * k_px)), y = static_cast<int>(std::lround(units.y * k_px)),
+  int x = static_cast<int>(std::lround(units.x * k_px)),
+      y = static_cast<int>(std::lround(units.y * k_px)),
       notches = static_cast<int>(std::lround(units.z * k_notches));
   const Vec3 did{x / k_px, y / k_px, notches / k_notches};
   // as a hand does: not all at once
@@ -183,7 +190,8 @@ Vec3 MouseMeans::move(Vec3 units) {
 void MouseMeans::hand_in(const Eye& eye) {
   hand_.click(2, 60);
   see(eye, 2);
-  constexpr int k_finished_x = 675, k_finished_y = 335;  // the last button of the panel on the right
+  constexpr int k_finished_x = 675,
+                k_finished_y = 335;  // the last button of the panel on the right
   for (int i = 0; i < 5 && eye().screen == "exam"; ++i) {
     click_at(eye, k_finished_x, k_finished_y);
     press_main_button(eye);
@@ -193,14 +201,18 @@ void MouseMeans::hand_in(const Eye& eye) {
   press_main_button(eye);  // the window closes
 }
 
-StylusMeans::StylusMeans(testing_station::XHand& hand, const std::string& home, Vec3 start_mm) : KeyboardMeans(hand), wanted_mm_(start_mm) {
+StylusMeans::StylusMeans(testing_station::XHand& hand, const std::string& home, Vec3 start_mm)
+    : KeyboardMeans(hand), wanted_mm_(start_mm) {
   StationStylus station = usual_station_stylus(inverse3_kind());
   station.settings["port"] = static_cast<double>(service_.port());
   write_text_file(home + "/stylus-inverse3.toml", to_toml(station));
   // not one that is unknown after 40 ms of silence: this program may wait longer for a core
   write_text_file(
       home + "/pedal.toml",
-      to_toml({.vendor = 0x068e, .product = 0x00f2, .calibration = {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = true}}));
+      to_toml(
+          {.vendor = 0x068e,
+           .product = 0x00f2,
+           .calibration = {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = true}}));
   // held upright: a grip points along its own y axis, to the tip
   const double half = std::sqrt(0.5);
   service_.change([half](auto&, auto& grips) {
@@ -226,7 +238,8 @@ Vec3 StylusMeans::move(Vec3 units) {
 }
 
 void StylusMeans::hold() {
-  constexpr double k_mass_kg = 0.15, k_spring_n_mm = 2.0, k_damping_n_s_mm = 0.1, k_mm_s = 2.5, k_step_s = 0.00025, k_longest_s = 0.02;
+  constexpr double k_mass_kg = 0.15, k_spring_n_mm = 2.0, k_damping_n_s_mm = 0.1, k_mm_s = 2.5,
+                   k_step_s = 0.00025, k_longest_s = 0.02;
   Vec3 at = wanted_mm_, speed, aim = wanted_mm_;
   auto before = Clock::now(), last_report = before;
   double owed_s = 0.0;

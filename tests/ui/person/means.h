@@ -1,5 +1,6 @@
-// What a person may have in hand at the station: keyboard, mouse or stylus. Each moves the tip by its own units and learns from the picture what they
-// come to; screens are gone through by the same means.
+// What a person may have in hand at the station: keyboard, mouse or stylus. Each moves the tip by
+// its own units and learns from the picture what they come to; screens are gone through by the same
+// means.
 #pragma once
 
 #include <atomic>
@@ -36,7 +37,8 @@ class Means {
   [[nodiscard]] virtual std::string options() const = 0;
   /// From sign-in to the exam; `bur` lies at this place of the shelf's `shelf`.
   virtual void come_to_exam(const Eye& eye, int bur, int shelf) = 0;
-  /// Moves by so many of its units to the right, up in the picture, and towards the person; returns what it could.
+  /// Moves by so many of its units to the right, up in the picture, and towards the person; returns
+  /// what it could.
   virtual Vec3 move(Vec3 units) = 0;
   virtual void pedal(bool down) = 0;
   /// Hands the work in, and closes the window.
@@ -79,8 +81,8 @@ class MouseMeans final : public Means {
   void click_at(const Eye& eye, int x, int y) const;
 };
 
-/// An Inverse3 and a foot pedal, both emulated, in a hand with mass, spring and damping that the station's forces push; units are mm. The keyboard is
-/// there for the screens.
+/// An Inverse3 and a foot pedal, both emulated, in a hand with mass, spring and damping that the
+/// station's forces push; units are mm. The keyboard is there for the screens.
 class StylusMeans final : public KeyboardMeans {
  public:
   /// `home`: CAVUM_HOME of the station, where its stylus and pedal are noted.

@@ -1,5 +1,6 @@
-// A person who cuts a cavity by what the window shows: lays lines in it, from its opening to its floor, and brings the tip along them, looking at
-// each picture where the tip is. Learns first which way its hand goes in the picture.
+// A person who cuts a cavity by what the window shows: lays lines in it, from its opening to its
+// floor, and brings the tip along them, looking at each picture where the tip is. Learns first
+// which way its hand goes in the picture.
 #pragma once
 
 #include <array>
@@ -36,7 +37,7 @@ class Person {
   Eye eye_;
   std::array<Vec3, 3> per_unit_mm_;  // of the hand's units: way of the tip
   Vec3 wanted_mm_;                   // where the hand wants the tip, by what it did
-  Vec3 aside_mm_;                    // of the line: what holds the tip off it, as it was seen so far
+  Vec3 aside_mm_;  // of the line: what holds the tip off it, as it was seen so far
 };
 
 }  // namespace cavum::testing_person

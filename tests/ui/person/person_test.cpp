@@ -1,10 +1,12 @@
-// Class I on the lower molar, cut by a person's means alone: keyboard, mouse or stylus, at 10 and at 60 pictures a second. Real events of the X
-// server and of emulated devices go into the running `cavum station`; what comes back is where its pictures show the tip. An exam without practice's
+// Class I on the lower molar, cut by a person's means alone: keyboard, mouse or stylus, at 10 and
+// at 60 pictures a second. Real events of the X server and of emulated devices go into the running
+// `cavum station`; what comes back is where its pictures show the tip. An exam without practice's
 // aids.
-//   [CAVUM_PERSON=mouse] umockdev-wrapper person_test     each means, or this one, for the cavity's first way
-//   CAVUM_DEEP=1 ...                                      for the whole cavity, at both rates
-//   CAVUM_PERSON_RATE=60 ...                              at this rate alone
-//   CAVUM_PERSON_KEEP=FOLDER ...                          sessions, and the tip's places of each picture, stay there
+//   [CAVUM_PERSON=mouse] umockdev-wrapper person_test     each means, or this one, for the cavity's
+//   first way CAVUM_DEEP=1 ...                                      for the whole cavity, at both
+//   rates CAVUM_PERSON_RATE=60 ...                              at this rate alone
+//   CAVUM_PERSON_KEEP=FOLDER ...                          sessions, and the tip's places of each
+//   picture, stay there
 #include "tests/ui/person/person.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +35,9 @@ const std::string k_task = std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/clas
 
 std::vector<std::string> burs_on_the_shelf() {
   std::vector<std::string> names;
-  for (const auto& e : std::filesystem::directory_iterator(std::string(CAVUM_SOURCE_DIR) + "/data/burs")) names.push_back(e.path().stem().string());
+  for (const auto& e :
+       std::filesystem::directory_iterator(std::string(CAVUM_SOURCE_DIR) + "/data/burs"))
+    names.push_back(e.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -83,7 +87,8 @@ class PersonAtTheStation : public ::testing::Test {
  protected:
   void SetUp() override {
     screen_ = std::make_unique<testing_station::VirtualScreen>();
-    if (!screen_->there()) GTEST_SKIP() << "SKIPPED: no Xvfb on this computer, so no window can be opened";
+    if (!screen_->there())
+      GTEST_SKIP() << "SKIPPED: no Xvfb on this computer, so no window can be opened";
     hand_ = std::make_unique<testing_station::XHand>();
     if (!hand_->there()) GTEST_SKIP() << "no libXtst on this computer, so no key can be pressed";
     ::setenv("LANGUAGE", "en", 1);
@@ -96,10 +101,13 @@ class PersonAtTheStation : public ::testing::Test {
 
   Outcome sits(const std::string& name, int pictures_s, Work work) {
     const char* keep = std::getenv("CAVUM_PERSON_KEEP");
-    const std::string run = name + "-" + std::to_string(pictures_s), kept = keep == nullptr ? folder_.file("kept") : keep,
+    const std::string run = name + "-" + std::to_string(pictures_s),
+                      kept = keep == nullptr ? folder_.file("kept") : keep,
                       session = kept + "/" + run + ".cavum";
     std::filesystem::create_directories(kept);
-    for (const std::string& old : {session, session + "-wal", session + "-shm", kept + "/" + run + ".txt"}) std::filesystem::remove(old);
+    for (const std::string& old :
+         {session, session + "-wal", session + "-shm", kept + "/" + run + ".txt"})
+      std::filesystem::remove(old);
     const auto setup = scenarios::prepare_exam(k_task, {});
     std::unique_ptr<Means> means;
     if (name == "keyboard") means = std::make_unique<KeyboardMeans>(*hand_);
@@ -110,15 +118,21 @@ class PersonAtTheStation : public ::testing::Test {
         return {};
       }
       const Vec3 middle = (setup->zones.target_low_mm() + setup->zones.target_high_mm()) * 0.5;
-      means = std::make_unique<StylusMeans>(*hand_, folder_.file("home"), Vec3{middle.x, middle.y, setup->zones.opening_z_mm() + 4.0});
+      means = std::make_unique<StylusMeans>(
+          *hand_, folder_.file("home"),
+          Vec3{middle.x, middle.y, setup->zones.opening_z_mm() + 4.0});
     }
-    write_text_file(folder_.file("script"), "pace " + std::to_string(pictures_s) + "\ntell " + run + "\nsleep 3000\n");
+    write_text_file(folder_.file("script"),
+                    "pace " + std::to_string(pictures_s) + "\ntell " + run + "\nsleep 3000\n");
     // where no device is emulated, the station is as it is on a desk
     const std::string plain = name == "stylus" ? "" : "env -u LD_PRELOAD -u UMOCKDEV_DIR ";
-    const std::string command = "exec " + plain + std::string(CAVUM_BINARY " station ") + k_task + " " + means->options() + " --out " + session +
-                                " --width 800 --height 500 --effects 5 --script " + folder_.file("script") + " --pictures " + kept + " >" +
+    const std::string command = "exec " + plain + std::string(CAVUM_BINARY " station ") + k_task +
+                                " " + means->options() + " --out " + session +
+                                " --width 800 --height 500 --effects 5 --script " +
+                                folder_.file("script") + " --pictures " + kept + " >" +
                                 folder_.file("out") + " 2>" + folder_.file("err");
-    std::array<char*, 4> arguments{const_cast<char*>("sh"), const_cast<char*>("-c"), const_cast<char*>(command.c_str()), nullptr};
+    std::array<char*, 4> arguments{const_cast<char*>("sh"), const_cast<char*>("-c"),
+                                   const_cast<char*>(command.c_str()), nullptr};
     pid_t child = -1;
     EXPECT_EQ(::posix_spawn(&child, "/bin/sh", nullptr, nullptr, arguments.data(), environ), 0);
     Outcome o;
@@ -140,7 +154,8 @@ class PersonAtTheStation : public ::testing::Test {
       person.lift(5.0);  // over the cusps, from the floor
       const Seen last = eye();
       o.took_s = last.exam_s;
-      o.pictures_s = static_cast<double>(last.picture - first.picture) / (last.exam_s - first.exam_s);
+      o.pictures_s =
+          static_cast<double>(last.picture - first.picture) / (last.exam_s - first.exam_s);
       means->hand_in(eye);
     } catch (const std::exception& e) {
       ADD_FAILURE() << run << ": " << e.what() << "\n" << read_text_file(folder_.file("err"));
@@ -151,12 +166,17 @@ class PersonAtTheStation : public ::testing::Test {
     if (::testing::Test::HasFailure()) return o;
     EXPECT_EQ(WEXITSTATUS(status), 0) << read_text_file(folder_.file("err"));
     EXPECT_TRUE(verify_session(session).verified) << run;
-    EXPECT_EQ(std::system((std::string(CAVUM_BINARY " grade ") + session + " --json >" + folder_.file("grade")).c_str()), 0);
+    EXPECT_EQ(std::system((std::string(CAVUM_BINARY " grade ") + session + " --json >" +
+                           folder_.file("grade"))
+                              .c_str()),
+              0);
     o.grade = nlohmann::json::parse(read_text_file(folder_.file("grade")));
     o.verdict = o.grade["verdict"];
     o.score = o.grade["score"]["points"];
-    std::printf("%s at %d pictures a second: %.1f came; %s, %.2f points, %.0f s, %d of the ways left, %.2f mm3 removed\n", name.c_str(), pictures_s,
-                o.pictures_s, o.verdict.c_str(), o.score, o.took_s, o.left, o.grade["volumes"]["removed_mm3"].get<double>());
+    std::printf(
+        "%s at %d pictures a second: %.1f came; %s, %.2f points, %.0f s, %d of the ways left, %.2f mm3 removed\n",
+        name.c_str(), pictures_s, o.pictures_s, o.verdict.c_str(), o.score, o.took_s, o.left,
+        o.grade["volumes"]["removed_mm3"].get<double>());
     std::fflush(stdout);
     return o;
   }
@@ -189,7 +209,9 @@ TEST_F(PersonAtTheStation, PassesClassIAtTenPicturesASecondAsAtSixty) {
       EXPECT_EQ(o.verdict, "pass") << name << " at " << pictures_s << " pictures a second";
       scores.push_back(o.score);
     }
-    if (scores.size() == 2) std::printf("%s: %+.2f points from 10 to 60 pictures a second\n", name.c_str(), scores[1] - scores[0]);
+    if (scores.size() == 2)
+      std::printf("%s: %+.2f points from 10 to 60 pictures a second\n", name.c_str(),
+                  scores[1] - scores[0]);
   }
 }
 

@@ -1,4 +1,5 @@
-// The class report's data, unpacked by a decoder of the test's own and counted again leaf by leaf; and the same words in HTML and PDF.
+// The class report's data, unpacked by a decoder of the test's own and counted again leaf by leaf;
+// and the same words in HTML and PDF.
 #include "ui/report/class_report.h"
 
 #include <cmath>
@@ -19,11 +20,13 @@ using testing_report::of_kind;
 using testing_report::times;
 using testing_report::unpack;
 
-/// A class whose cavities are known: each removes some leaves of the target and some beside it, by chance.
+/// A class whose cavities are known: each removes some leaves of the target and some beside it, by
+/// chance.
 class ClassReport : public ::testing::Test {
  protected:
   void SetUp() override {
-    const auto setup = scenarios::prepare_exam(std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml", {});
+    const auto setup = scenarios::prepare_exam(
+        std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml", {});
     tooth_.scenario = setup->scenario;
     tooth_.tooth = load_tooth(setup->session.tooth, "block");
     tooth_.zones = scenarios::build_zones(tooth_.scenario, tooth_.tooth);
@@ -33,9 +36,12 @@ class ClassReport : public ::testing::Test {
       std::vector<IVec3> removed;
       const Vec3 middle = (tooth_.zones.target_low_mm() + tooth_.zones.target_high_mm()) * 0.5;
       // one leaves much, one takes too much, the others by chance
-      const double more_mm = i == 0 ? -0.3 : i == 6 ? 0.4 : 0.1 * static_cast<double>(random() % 8) - 0.3;
+      const double more_mm = i == 0   ? -0.3
+                             : i == 6 ? 0.4
+                                      : 0.1 * static_cast<double>(random() % 8) - 0.3;
       tooth_.zones.for_each_leaf([&](IVec3 leaf, scenarios::Zone) {
-        if (tooth_.tooth.octree.tissue(leaf) == k_air || tooth_.zones.distance_mm(leaf) > more_mm) return;
+        if (tooth_.tooth.octree.tissue(leaf) == k_air || tooth_.zones.distance_mm(leaf) > more_mm)
+          return;
         if (tooth_.zones.centre_mm(leaf).x < middle.x + 0.3 * i) removed.push_back(leaf);
       });
       tooth_.map->add(removed);
@@ -57,9 +63,13 @@ TEST_F(ClassReport, ItsCellsAreThePlannedCavityAndTheShareOfTheClassThatDeviated
   const auto& grid = data["grid"];
   const Octree& tree = tooth_.tooth.octree;
   const int edge = static_cast<int>(std::lround(grid["cell_mm"].get<double>() / tree.leaf_mm()));
-  const auto three = [](const nlohmann::json& j) { return IVec3{j[0].get<int>(), j[1].get<int>(), j[2].get<int>()}; };
-  const IVec3 low = three(grid["box"]["low"]), size = three(grid["box"]["size"]), all = three(grid["size"]);
-  const auto before = unpack(grid["before"]), after = unpack(grid["after"]), heat = unpack(grid["heat"]);
+  const auto three = [](const nlohmann::json& j) {
+    return IVec3{j[0].get<int>(), j[1].get<int>(), j[2].get<int>()};
+  };
+  const IVec3 low = three(grid["box"]["low"]), size = three(grid["box"]["size"]),
+              all = three(grid["size"]);
+  const auto before = unpack(grid["before"]), after = unpack(grid["after"]),
+             heat = unpack(grid["heat"]);
   ASSERT_EQ(heat.size(), cells_of(size));
   const auto origin = grid["origin_mm"];
   long planned = 0, warm = 0, cold = 0;
@@ -72,13 +82,15 @@ TEST_F(ClassReport, ItsCellsAreThePlannedCavityAndTheShareOfTheClassThatDeviated
         double left = 0, cut = 0;
         for (int k = 0; k < edge * edge * edge; ++k) {
           const auto at = [&](int axis, int step) {
-            return origin[static_cast<std::size_t>(axis)].get<double>() + ((axis == 0   ? cell.x
-                                                                            : axis == 1 ? cell.y
-                                                                                        : cell.z) +
-                                                                           (step + 0.5) / edge - 0.5) *
-                                                                              edge * tree.leaf_mm();
+            return origin[static_cast<std::size_t>(axis)].get<double>() +
+                   ((axis == 0   ? cell.x
+                     : axis == 1 ? cell.y
+                                 : cell.z) +
+                    (step + 0.5) / edge - 0.5) *
+                       edge * tree.leaf_mm();
           };
-          const IVec3 leaf = tree.leaf_at({at(0, k % edge), at(1, k / edge % edge), at(2, k / edge / edge)});
+          const IVec3 leaf =
+              tree.leaf_at({at(0, k % edge), at(1, k / edge % edge), at(2, k / edge / edge)});
           if (tree.tissue(leaf) == k_air) continue;
           if (tooth_.zones.zone(leaf) == scenarios::Zone::target) {
             ++target;
@@ -91,14 +103,19 @@ TEST_F(ClassReport, ItsCellsAreThePlannedCavityAndTheShareOfTheClassThatDeviated
         const long whole = edge * edge * edge;
         const auto index = cell_index(cell, all);
         planned += target;
-        ASSERT_EQ(before[index], std::lround(255.0 * static_cast<double>(target + other) / static_cast<double>(whole)));
-        ASSERT_EQ(after[i], std::lround(255.0 * static_cast<double>(other) / static_cast<double>(whole)));
-        const double expected = target > other ? -left / static_cast<double>(target) : other > 0 ? cut / static_cast<double>(other) : 0;
+        ASSERT_EQ(before[index], std::lround(255.0 * static_cast<double>(target + other) /
+                                             static_cast<double>(whole)));
+        ASSERT_EQ(after[i],
+                  std::lround(255.0 * static_cast<double>(other) / static_cast<double>(whole)));
+        const double expected = target > other ? -left / static_cast<double>(target)
+                                : other > 0    ? cut / static_cast<double>(other)
+                                               : 0;
         ASSERT_NEAR(static_cast<double>(heat[i]), expected, 0.5 + 1e-9);
         warm += heat[i] > 0 ? 1 : 0;
         cold += heat[i] < 0 ? 1 : 0;
       }
-  EXPECT_EQ(planned, static_cast<long>(tooth_.zones.count(scenarios::Zone::target))) << "the whole target lies in the box";
+  EXPECT_EQ(planned, static_cast<long>(tooth_.zones.count(scenarios::Zone::target)))
+      << "the whole target lies in the box";
   EXPECT_GT(warm, 0);
   EXPECT_GT(cold, 0);
 }
@@ -120,7 +137,8 @@ TEST_F(ClassReport, WarnsBesideEachFigureThatComesFromFew) {
 
 TEST_F(ClassReport, HasNoLineAndNoFigureAtAPassMarkThatIsNoneAndNamesStations) {
   figures_.pass_points = 70;
-  figures_.stations = {{"4ab3f3a9d0c1b2a3f4e5", "Seat <1>", 4, 61.0}, {"5ab3f3a9d0c1b2a3f4e5", "Seat 2", 3, 62.0}};
+  figures_.stations = {{"4ab3f3a9d0c1b2a3f4e5", "Seat <1>", 4, 61.0},
+                       {"5ab3f3a9d0c1b2a3f4e5", "Seat 2", 3, 62.0}};
   const std::string one = class_html(figures_, tooth_);
   const std::string mark = "stroke-dasharray='3 3'";
   EXPECT_EQ(times(one, mark), 1u) << "a line in the chart";
@@ -143,7 +161,9 @@ TEST_F(ClassReport, SaysTheSameInHtmlAndPdf) {
   EXPECT_LT(html.size(), 3'000'000u);
   const testing_basics::Folder folder;
   write_text_file(folder.file("c.pdf"), class_pdf(figures_, tooth_));
-  ASSERT_EQ(std::system(("pdftotext -layout " + folder.file("c.pdf") + " " + folder.file("c.txt")).c_str()), 0);
+  ASSERT_EQ(std::system(
+                ("pdftotext -layout " + folder.file("c.pdf") + " " + folder.file("c.txt")).c_str()),
+            0);
   const std::string text = read_text_file(folder.file("c.txt"));
   EXPECT_NE(text.find("floor <depth>"), std::string::npos) << text;
 }

@@ -5,57 +5,64 @@
 
 #include <algorithm>
 
-#include "engine/tooth/make/set_beside.h"
-#include "tests/grading/carved_beside.h"
+#include "engine/tooth/make/add_adjacent.h"
+#include "tests/grading/carved_adjacent.h"
 #include "tests/ui/report/kinds.h"
 #include "ui/report/figures/section_pictures.h"
 
 namespace cavum::report {
 namespace {
 
-using testing::CarvedBeside;
+using testing::CarvedAdjacent;
 
 Tooth two_balls() {
   const auto field = [](Vec3 p) { return length(p) - 3; };
   const Tooth ball = testing::make_tooth(
-      {-3.3, -3.3, -3.3}, {3.3, 3.3, 3.3}, 0.1, [&](Vec3 p) { return field(p) < 0 ? k_enamel : k_air; }, field);
-  BesideSpec spec;
+      {-3.3, -3.3, -3.3}, {3.3, 3.3, 3.3}, 0.1,
+      [&](Vec3 p) { return field(p) < 0 ? k_enamel : k_air; }, field);
+  AdjacentSpec spec;
   spec.mesial.tooth = &ball;
-  return set_beside(ball, spec, "here").tooth;
+  return add_adjacent(ball, spec, "here").tooth;
 }
-const std::string k_task = testing::scenario_text("[[zones.target]]\nshape = \"box\"\nat_mm = [2.7, 0, 2.2]\nsize_mm = [2, 1.6, 6]\n");
+const std::string k_task = testing::scenario_text(
+    "[[zones.target]]\nshape = \"box\"\nat_mm = [2.7, 0, 2.2]\nsize_mm = [2, 1.6, 6]\n");
 
-std::string from_above(const CarvedBeside& c) {
-  return c.with_input([](const grading::GradeInput& input) { return picture_from_above(input).svg; });
+std::string from_above(const CarvedAdjacent& c) {
+  return c.with_input(
+      [](const grading::GradeInput& input) { return picture_from_above(input).svg; });
 }
 
 /// Sections that are cut through a place of this kind.
-std::vector<SectionPicture> sections_of(SectionOf kind, const grading::Result& r, const grading::GradeInput& input) {
+std::vector<SectionPicture> sections_of(SectionOf kind, const grading::Result& r,
+                                        const grading::GradeInput& input) {
   std::vector<SectionPicture> list = section_pictures(r, input);
   std::erase_if(list, [&](const SectionPicture& p) { return p.of != kind; });
   return list;
 }
 
-TEST(BesideInPictures, FromAboveShowsTheNeighbourAndWhatWasCutOfIt) {
+TEST(AdjacentInPictures, FromAboveShowsTheNeighbourAndWhatWasCutOfIt) {
   using testing_report::times;
-  CarvedBeside c(k_task, two_balls());
+  CarvedAdjacent c(k_task, two_balls());
   const std::string untouched = from_above(c);
   c.carve([](Vec3 p) { return length(p - Vec3{3, 0, 0}) - 0.6; }, 5, {2, -2, -2}, {5, 2, 2});
   EXPECT_NE(from_above(c), untouched) << "a nick below the bulge of both is shown";
 
   testing::Carved alone(k_task, testing::make_tooth(
-                                    {-3.3, -3.3, -3.3}, {3.3, 3.3, 3.3}, 0.1, [](Vec3 p) { return length(p) < 3 ? k_enamel : k_air; },
+                                    {-3.3, -3.3, -3.3}, {3.3, 3.3, 3.3}, 0.1,
+                                    [](Vec3 p) { return length(p) < 3 ? k_enamel : k_air; },
                                     [](Vec3 p) { return length(p) - 3; }));
-  const grading::GradeInput input{alone.scenario, alone.before, alone.zones, alone.after, alone.inputs, alone.records, alone.removed, alone.events};
+  const grading::GradeInput input{alone.scenario, alone.before,  alone.zones,   alone.after,
+                                  alone.inputs,   alone.records, alone.removed, alone.events};
   EXPECT_EQ(times(untouched, "</text>"), times(picture_from_above(input).svg, "</text>") + 2)
       << "the key names the neighbour and what was cut of it, and no gum, for there is none";
 }
 
-TEST(BesideInPictures, SectionsLeadThroughTheDeepestPlaceOfANick) {
-  CarvedBeside c(k_task, two_balls());
+TEST(AdjacentInPictures, SectionsLeadThroughTheDeepestPlaceOfANick) {
+  CarvedAdjacent c(k_task, two_balls());
   const auto sections = [&](SectionOf kind) {
     const grading::Result r = c.graded();
-    return c.with_input([&](const grading::GradeInput& input) { return sections_of(kind, r, input); });
+    return c.with_input(
+        [&](const grading::GradeInput& input) { return sections_of(kind, r, input); });
   };
   EXPECT_TRUE(sections(SectionOf::nick).empty());
   ASSERT_EQ(sections(SectionOf::contact).size(), 1u) << "the contact still stands";
@@ -70,7 +77,8 @@ TEST(BesideInPictures, SectionsLeadThroughTheDeepestPlaceOfANick) {
 class MistakePictures : public ::testing::Test {
  protected:
   MistakePictures()
-      : work_(testing::scenario_text("[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [3, 2, 3]\n"),
+      : work_(testing::scenario_text(
+                  "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [3, 2, 3]\n"),
               testing::dentin_block(4, 5, 0.1)) {}
   [[nodiscard]] std::string image(Picture (*draw)(const grading::GradeInput&)) const {
     const std::string svg = draw(work_.input()).svg;
@@ -91,8 +99,11 @@ TEST_F(MistakePictures, WhoCutsTheTargetAndNothingElseSeesThePlan) {
 TEST_F(MistakePictures, ASectionThroughAMistakeShowsCavityAndWallWithItAndRingsIt) {
   work_.carve(testing::box_hole(-1.5, 1.5, -1, 1, -2), 500);
   EXPECT_FALSE(section_of_mistake(work_.input(), {0, 0, -2}).has_value()) << "nothing is wrong";
-  work_.carve(testing::box_hole(-1.5, 1.5, 1, 1.5, -2), 600);  // the buccal wall, 3 mm wide, 2 mm high, 0.5 mm deep
-  for (const double y : {1.1, 1.45, 1.95}) {                   // 3 x 2 mm of it lie in a plane along the wall, but nothing of the cavity does
+  work_.carve(testing::box_hole(-1.5, 1.5, 1, 1.5, -2),
+              600);  // the buccal wall, 3 mm wide, 2 mm high, 0.5 mm deep
+  for (const double y :
+       {1.1, 1.45,
+        1.95}) {  // 3 x 2 mm of it lie in a plane along the wall, but nothing of the cavity does
     const auto across = section_of_mistake(work_.input(), {0, y, -1});
     ASSERT_TRUE(across.has_value());
     EXPECT_NE(across->view, scenarios::View::mesio_distal) << y;
@@ -109,7 +120,9 @@ TEST_F(MistakePictures, AFloorCutTooDeepShowsUprightWithTheCavityAboveIt) {
 }
 
 TEST_F(MistakePictures, WhatCannotBeSeenHasNoSectionOfItsOwn) {
-  const auto overcuts = [&] { return sections_of(SectionOf::overcut, work_.graded(), work_.input()).size(); };
+  const auto overcuts = [&] {
+    return sections_of(SectionOf::overcut, work_.graded(), work_.input()).size();
+  };
   work_.carve(testing::box_hole(-1.5, 1.5, -1, 1.02, -2), 500);
   EXPECT_EQ(overcuts(), 0u);
   work_.carve(testing::box_hole(-1.5, 1.5, -1, 1.4, -2), 600);

@@ -17,7 +17,8 @@ inline std::string of_kind(const std::string& html, const std::string& kind) {
   const auto at = html.find(" data-kind='" + kind + "'");
   if (at == std::string::npos) return {};
   const auto open = html.rfind('<', at);
-  const std::string end = "</" + html.substr(open + 1, html.find_first_of(" >", open) - open - 1) + ">";
+  const std::string end =
+      "</" + html.substr(open + 1, html.find_first_of(" >", open) - open - 1) + ">";
   return html.substr(open, html.find(end, open) + end.size() - open);
 }
 

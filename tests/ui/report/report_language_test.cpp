@@ -1,5 +1,6 @@
-// Reports in another language: every word of them is translated, the file says its language, numbers have its decimal sign, and a name that is
-// written from right to left leaves its line in order.
+// Reports in another language: every word of them is translated, the file says its language,
+// numbers have its decimal sign, and a name that is written from right to left leaves its line in
+// order.
 #include <algorithm>
 #include <regex>
 
@@ -23,27 +24,36 @@ std::string joined(std::vector<std::string> words) {
 
 class ReportLanguage : public testing_ui::Program {
  protected:
-  /// Without what the scenario says itself, and the names of operators, which are no words of the program.
+  /// Without what the scenario says itself, and the names of operators, which are no words of the
+  /// program.
   static std::string without_own_texts(std::string text, const std::string& scenario) {
     const std::string toml = read_text_file(k_data + "/scenarios/" + scenario + ".toml");
     const std::regex quoted("\\b(?:title|instruction|description) = \"([^\"]+)\"");
     std::vector<std::string> own{"novice", "perforator", "expert"};
-    for (auto at = std::sregex_iterator(toml.begin(), toml.end(), quoted); at != std::sregex_iterator(); ++at) own.push_back((*at)[1]);
-    std::sort(own.begin(), own.end(), [](const std::string& a, const std::string& b) { return a.size() > b.size(); });
+    for (auto at = std::sregex_iterator(toml.begin(), toml.end(), quoted);
+         at != std::sregex_iterator(); ++at)
+      own.push_back((*at)[1]);
+    std::sort(own.begin(), own.end(),
+              [](const std::string& a, const std::string& b) { return a.size() > b.size(); });
     for (const auto& words : own)
-      for (auto at = text.find(words); at != std::string::npos; at = text.find(words, at)) text.erase(at, words.size());
+      for (auto at = text.find(words); at != std::string::npos; at = text.find(words, at))
+        text.erase(at, words.size());
     return text;
   }
   /// A session of the shipped slot, sat by a simulated operator who loses points.
-  std::string sit(const std::string& by, const std::string& scenario, const std::string& more = "") const {
+  std::string sit(const std::string& by, const std::string& scenario,
+                  const std::string& more = "") const {
     const std::string file = path(by + ".cavum");
     const auto r =
-        run("exam " + k_data + "/scenarios/" + scenario + ".toml --candidate A17 --operator " + by + " --quiet --out " + file + " " + more);
+        run("exam " + k_data + "/scenarios/" + scenario + ".toml --candidate A17 --operator " + by +
+            " --quiet --out " + file + " " + more);
     EXPECT_EQ(r.exit_code, 0) << r.err;
     return file;
   }
-  std::string report(const std::string& session, const std::string& reader, const std::string& language, const std::string& ending = ".html") const {
-    const auto r = run("--language " + language + " report " + session + " --for " + reader + " --overwrite --out " + path("r" + ending));
+  std::string report(const std::string& session, const std::string& reader,
+                     const std::string& language, const std::string& ending = ".html") const {
+    const auto r = run("--language " + language + " report " + session + " --for " + reader +
+                       " --overwrite --out " + path("r" + ending));
     EXPECT_EQ(r.exit_code, 0) << r.err;
     return read_text_file(path("r" + ending));
   }
@@ -67,12 +77,17 @@ TEST_F(ReportLanguage, AGermanReportHoldsNoEnglishSentence) {
     const std::string html = report(session, reader, "de"), text = readable(html);
     EXPECT_NE(html.find("<html lang='de'>"), std::string::npos);
     // English words that are no German ones
-    const std::regex english("\\b(the|of|and|with|which|is|from|to|by|not|for|cut|left|removed|wall|floor|points|time)\\b");
-    for (auto at = std::sregex_iterator(text.begin(), text.end(), english); at != std::sregex_iterator(); ++at)
-      ADD_FAILURE() << reader << ": ..." << text.substr(std::max<std::ptrdiff_t>(0, at->position() - 60), 130) << "...";
+    const std::regex english(
+        "\\b(the|of|and|with|which|is|from|to|by|not|for|cut|left|removed|wall|floor|points|time)\\b");
+    for (auto at = std::sregex_iterator(text.begin(), text.end(), english);
+         at != std::sregex_iterator(); ++at)
+      ADD_FAILURE() << reader << ": ..."
+                    << text.substr(std::max<std::ptrdiff_t>(0, at->position() - 60), 130) << "...";
     EXPECT_NE(text.find("Kriterien"), std::string::npos);
-    EXPECT_NE(text.find("Gerade Nut in einem Block"), std::string::npos) << "the scenario's own German title";
-    EXPECT_TRUE(std::regex_search(text, std::regex("[0-9],[0-9] von 100,0 Punkten"))) << "decimal comma";
+    EXPECT_NE(text.find("Gerade Nut in einem Block"), std::string::npos)
+        << "the scenario's own German title";
+    EXPECT_TRUE(std::regex_search(text, std::regex("[0-9],[0-9] von 100,0 Punkten")))
+        << "decimal comma";
   }
 }
 
@@ -85,14 +100,16 @@ TEST_F(ReportLanguage, WhatProgramsReadStaysEnglish) {
   const std::string other = sit("expert", "slot");
   ::setenv("LANGUAGE", "en", 1);
   EXPECT_EQ(run_json("grade " + other)["verdict"], "pass");
-  EXPECT_EQ(run("replay " + other + " --verify").exit_code, 0) << "an exam that a German station recorded and sealed";
+  EXPECT_EQ(run("replay " + other + " --verify").exit_code, 0)
+      << "an exam that a German station recorded and sealed";
 }
 
 TEST_F(ReportLanguage, TheSameSessionGivesTheSameBytesInEachLanguage) {
   const std::string session = sit("novice", "slot");
   for (const std::string language : {"de", "qps"})
     for (const std::string ending : {".html", ".pdf"})
-      EXPECT_EQ(report(session, "student", language, ending), report(session, "student", language, ending));
+      EXPECT_EQ(report(session, "student", language, ending),
+                report(session, "student", language, ending));
   EXPECT_NE(report(session, "student", "de"), report(session, "student", "en"));
 }
 

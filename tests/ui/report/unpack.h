@@ -1,4 +1,5 @@
-// Unpacks what a report carries, in a way of its own: zstd, little-endian numbers, differences added up.
+// Unpacks what a report carries, in a way of its own: zstd, little-endian numbers, differences
+// added up.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -39,7 +40,8 @@ inline nlohmann::json data_in(const std::string& html) {
   const auto from = html.find(open);
   if (from == std::string::npos) return nullptr;
   const auto begin = from + open.size();
-  return nlohmann::json::parse(html.substr(begin, html.find("</script>", begin) - begin), nullptr, false);
+  return nlohmann::json::parse(html.substr(begin, html.find("</script>", begin) - begin), nullptr,
+                               false);
 }
 
 }  // namespace cavum::testing_report

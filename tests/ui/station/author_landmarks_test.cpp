@@ -1,5 +1,5 @@
-// Landmarks moved in the authoring view, from the key to the files: the tooth that is written, the zones that follow it, and what the command line
-// says of both.
+// Landmarks moved in the authoring view, from the key to the files: the tooth that is written, the
+// zones that follow it, and what the command line says of both.
 #include "ui/station/author_landmarks.h"
 
 #include <fmt/core.h>
@@ -48,7 +48,9 @@ class LandmarkWindow : public AuthorWindow {
     write_text_file(file(), text);
   }
   void write_task(const std::string& on) const {
-    const std::string command = CAVUM_BINARY " scenario new --tooth " + on + " --task class_1 --untried --out " + file() + " >" + folder_.file("out");
+    const std::string command = CAVUM_BINARY " scenario new --tooth " + on +
+                                " --task class_1 --untried --out " + file() + " >" +
+                                folder_.file("out");
     fs::remove(file());
     ASSERT_EQ(std::system(command.c_str()), 0);
   }
@@ -64,10 +66,16 @@ class LandmarkWindow : public AuthorWindow {
     return "";
   }
   [[nodiscard]] nlohmann::json told_of(const std::string& tooth_file) const {
-    EXPECT_EQ(std::system((CAVUM_BINARY " tooth landmarks " + tooth_file + " --json >" + folder_.file("json")).c_str()), 0);
+    EXPECT_EQ(std::system((CAVUM_BINARY " tooth landmarks " + tooth_file + " --json >" +
+                           folder_.file("json"))
+                              .c_str()),
+              0);
     return nlohmann::json::parse(read_text_file(folder_.file("json")));
   }
-  [[nodiscard]] int check() const { return std::system((CAVUM_BINARY " scenario check --no-trial " + file() + " >" + folder_.file("out")).c_str()); }
+  [[nodiscard]] int check() const {
+    return std::system(
+        (CAVUM_BINARY " scenario check --no-trial " + file() + " >" + folder_.file("out")).c_str());
+  }
 };
 
 constexpr const char* k_save = "hold ctrl\nkey s\nrelease ctrl\nsleep 0.4\n";
@@ -79,7 +87,8 @@ Vec3 place_of(const Tooth& tooth, const std::string& name) {
   return {};
 }
 
-/// Where the target ends towards mesial: its outermost leaf's x, and the middle y of its last 0.3 mm.
+/// Where the target ends towards mesial: its outermost leaf's x, and the middle y of its last 0.3
+/// mm.
 Vec3 mesial_end_mm(const scenarios::Scenario& s, const Tooth& tooth) {
   const scenarios::ZoneMap zones = scenarios::build_zones(s, tooth);
   double sum = 0, n = 0;
@@ -100,7 +109,8 @@ TEST_F(LandmarkWindow, AMovedPitTakesTheClassIZoneWithItIntoTheFilesAndTheComman
   std::string keys;
   for (int i = 0; i < 18; ++i) keys += "key right\n";
   for (int i = 0; i < 4; ++i) keys += "key down\n";
-  EXPECT_EQ(run("wait author\nsleep 0.3\n" + go_to("mesial_pit", tooth()) + "sleep 0.2\npicture 27-author-landmarks\n" + keys +
+  EXPECT_EQ(run("wait author\nsleep 0.3\n" + go_to("mesial_pit", tooth()) +
+                "sleep 0.2\npicture 27-author-landmarks\n" + keys +
                 "wait author-busy\nwait author\nsleep 0.3\n"
                 "picture 28-author-pit-moved\n" +
                 k_save + "key escape\n"),
@@ -113,7 +123,8 @@ TEST_F(LandmarkWindow, AMovedPitTakesTheClassIZoneWithItIntoTheFilesAndTheComman
   EXPECT_NEAR(put.at_mm.x, pit.x - 1.8, 1e-3);
   EXPECT_NEAR(put.at_mm.y, pit.y + 0.4, 1e-3);
   Octree::Cursor cursor;
-  EXPECT_NEAR(after.octree.sample(put.at_mm, cursor).distance_mm, 0, 0.002) << "it stays on the surface";
+  EXPECT_NEAR(after.octree.sample(put.at_mm, cursor).distance_mm, 0, 0.002)
+      << "it stays on the surface";
   Tooth bare;
   bare.octree = after.octree;
   bare.tissues = after.tissues;
@@ -136,15 +147,18 @@ TEST_F(LandmarkWindow, AToothThatShipsStaysAsItIsAndTheScenarioNamesANewOne) {
   write_task(k_premolar);
   const std::string before = read_text_file(file());
   const Bytes shipped = read_file(k_premolar);
-  EXPECT_EQ(run("wait author\n" + go_to("distal_pit", k_premolar) + "key up\n" + k_save + "picture 29-author-new-tooth\nkey enter\nsleep 0.4\n" +
-                "wait author\nkey escape\n"),
-            0)
+  EXPECT_EQ(
+      run("wait author\n" + go_to("distal_pit", k_premolar) + "key up\n" + k_save +
+          "picture 29-author-new-tooth\nkey enter\nsleep 0.4\n" + "wait author\nkey escape\n"),
+      0)
       << said();
   EXPECT_EQ(read_file(k_premolar), shipped);
-  EXPECT_EQ(read_text_file(file()), replaced(before, "\"upper_premolar.cvt\"", "\"upper_premolar_class_1.cvt\""));
+  EXPECT_EQ(read_text_file(file()),
+            replaced(before, "\"upper_premolar.cvt\"", "\"upper_premolar_class_1.cvt\""));
   const Tooth made = load_tooth_file(folder_.file("upper_premolar_class_1.cvt"));
   ASSERT_EQ(made.placed_landmarks.size(), 1u);
-  EXPECT_NEAR(made.placed_landmarks[0].at_mm.y, place_of(load_tooth_file(k_premolar), "distal_pit").y - 0.1, 1e-3);
+  EXPECT_NEAR(made.placed_landmarks[0].at_mm.y,
+              place_of(load_tooth_file(k_premolar), "distal_pit").y - 0.1, 1e-3);
   EXPECT_EQ(check(), 0);
 }
 
@@ -155,14 +169,16 @@ AuthorSight first_sight(const scenarios::Scenario& s, const Tooth& tooth) {
   Camera camera;
   camera.look_from_occlusal();
   camera.distance_mm = 30;
-  camera.target_mm = {static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)};
+  camera.target_mm = {static_cast<float>(middle.x), static_cast<float>(middle.y),
+                      static_cast<float>(middle.z)};
   const ImVec2 size{950, 574};
   return {camera.projection(size.x / size.y) * camera.view(), {0, 76}, size};
 }
 
 TEST_F(LandmarkWindow, TheMousePullsALandmarkOverTheSurface) {
   const Tooth before = load_tooth_file(tooth());
-  const AuthorSight sight = first_sight(scenarios::parse_scenario(read_text_file(file()), file()), before);
+  const AuthorSight sight =
+      first_sight(scenarios::parse_scenario(read_text_file(file()), file()), before);
   const Vec3 pit = place_of(before, "central_pit");
   const ImVec2 is = sight.pixel(pit);
   const auto mouse = [&](float across, float down, const char* button) {
@@ -170,12 +186,15 @@ TEST_F(LandmarkWindow, TheMousePullsALandmarkOverTheSurface) {
   };
   // taken beside its middle; a click alone moves nothing
   const std::string click = mouse(4, 3, "") + mouse(4, 3, " pressed") + mouse(4, 3, "");
-  EXPECT_EQ(run("wait author\nsleep 0.3\n" + click + "key x\n" + k_save + "key escape\n"), 0) << said();
+  EXPECT_EQ(run("wait author\nsleep 0.3\n" + click + "key x\n" + k_save + "key escape\n"), 0)
+      << said();
   EXPECT_EQ(load_tooth_file(tooth()).placed_landmarks.size(), 0u);
-  EXPECT_EQ(run("wait author\nsleep 0.3\n" + click + mouse(4, 3, " pressed") + mouse(14, -5, " pressed") + mouse(30, -20, " pressed") +
-                mouse(44, -27, " pressed") + mouse(44, -27, "") + "wait author-busy\nwait author\nsleep 0.2\npicture 30-author-pit-pulled\n" +
-                k_save + "key escape\n"),
-            0)
+  EXPECT_EQ(
+      run("wait author\nsleep 0.3\n" + click + mouse(4, 3, " pressed") + mouse(14, -5, " pressed") +
+          mouse(30, -20, " pressed") + mouse(44, -27, " pressed") + mouse(44, -27, "") +
+          "wait author-busy\nwait author\nsleep 0.2\npicture 30-author-pit-pulled\n" + k_save +
+          "key escape\n"),
+      0)
       << said();
   const Tooth after = load_tooth_file(tooth());
   ASSERT_EQ(after.placed_landmarks.size(), 1u);
@@ -190,23 +209,26 @@ TEST_F(LandmarkWindow, TheMousePullsALandmarkOverTheSurface) {
 TEST_F(LandmarkWindow, UndoRedoAndXTakeBackWhatWasMoved) {
   const Bytes before = read_file(tooth());
   const std::string text = read_text_file(file());
-  EXPECT_EQ(run("wait author\n" + go_to("central_pit", tooth()) +
-                "key right\nkey down\nhold ctrl\nkey z\nkey z\nkey y\nkey z\nrelease ctrl\nkey up\nkey x\nkey x\nkey f6\nsleep 0.2\n"
-                "picture 31-author-landmarks-hidden\nwait author\n" +
-                k_save + "key escape\n"),
-            0)
+  EXPECT_EQ(
+      run("wait author\n" + go_to("central_pit", tooth()) +
+          "key right\nkey down\nhold ctrl\nkey z\nkey z\nkey y\nkey z\nrelease ctrl\nkey up\nkey x\nkey x\nkey f6\nsleep 0.2\n"
+          "picture 31-author-landmarks-hidden\nwait author\n" +
+          k_save + "key escape\n"),
+      0)
       << said();
   EXPECT_EQ(read_file(tooth()), before) << "all was taken back";
   EXPECT_EQ(read_text_file(file()), text);
   EXPECT_FALSE(fs::exists(tooth() + ".before"));
-  EXPECT_EQ(run("wait author\n" + go_to("central_pit", tooth()) + "key right\nkey down\nhold ctrl\nkey z\nkey z\nkey y\nrelease ctrl\n" + k_save +
+  EXPECT_EQ(run("wait author\n" + go_to("central_pit", tooth()) +
+                "key right\nkey down\nhold ctrl\nkey z\nkey z\nkey y\nrelease ctrl\n" + k_save +
                 "key escape\n"),
             0)
       << said();
   const Tooth after = load_tooth_file(tooth());
   ASSERT_EQ(after.placed_landmarks.size(), 1u);
   const Vec3 pit = place_of(load_tooth(before, "before"), "central_pit");
-  EXPECT_NEAR(after.placed_landmarks[0].at_mm.x, pit.x - 0.1, 1e-3) << "one of two steps: to the right, which is distal";
+  EXPECT_NEAR(after.placed_landmarks[0].at_mm.x, pit.x - 0.1, 1e-3)
+      << "one of two steps: to the right, which is distal";
   EXPECT_NEAR(after.placed_landmarks[0].at_mm.y, pit.y, 1e-3);
 }
 
@@ -225,10 +247,15 @@ class LandmarkDocument : public ::testing::Test {
   [[nodiscard]] std::string tooth() const { return folder_.file("own.cvt"); }
   [[nodiscard]] std::string shipped() const { return folder_.file("data/teeth/ships.cvt"); }
   [[nodiscard]] static std::string text_on(const std::string& tooth) {
-    return "# mine\n" + replaced(read_text_file(k_class_1), "\"lower_molar.cvt\"", "\"" + tooth + "\"");
+    return "# mine\n" +
+           replaced(read_text_file(k_class_1), "\"lower_molar.cvt\"", "\"" + tooth + "\"");
   }
-  [[nodiscard]] static std::vector<NamedPoint> pit_at(double x) { return {{"central_pit", {x, 0, 0}}}; }
-  [[nodiscard]] std::vector<NamedPoint> on_disk(const std::string& name) const { return load_tooth_file(folder_.file(name)).placed_landmarks; }
+  [[nodiscard]] static std::vector<NamedPoint> pit_at(double x) {
+    return {{"central_pit", {x, 0, 0}}};
+  }
+  [[nodiscard]] std::vector<NamedPoint> on_disk(const std::string& name) const {
+    return load_tooth_file(folder_.file(name)).placed_landmarks;
+  }
   testing_basics::Folder folder_;
 };
 
@@ -280,7 +307,8 @@ TEST_F(LandmarkDocument, NeverWritesAToothThatShipsOrLiesElsewhere) {
     }
     EXPECT_EQ(d.text(), text_on(name));
     d.save();
-    EXPECT_EQ(read_text_file(file()), text_on(name)) << "back on the tooth that ships, whose landmarks are as they were";
+    EXPECT_EQ(read_text_file(file()), text_on(name))
+        << "back on the tooth that ships, whose landmarks are as they were";
     EXPECT_EQ(on_disk("new.cvt"), pit_at(1.5));
   }
   EXPECT_EQ(read_file(shipped()), before);
@@ -345,7 +373,8 @@ TEST(AuthorLandmarks, APersonsPointStandsApartAndIsTakenBack) {
   Landmarks found;
   found.central_pit_mm = Vec3{0, 0, 1};
   found.cusps = {{"buccal", {0, 2, 2}, 1.0}};
-  const std::vector<NamedPoint> put = with_landmark(with_landmark({}, "cusp_2", {0, -2, 2}), "central_pit", {0.10049, 0, 1});
+  const std::vector<NamedPoint> put =
+      with_landmark(with_landmark({}, "cusp_2", {0, -2, 2}), "central_pit", {0.10049, 0, 1});
   const std::vector<AuthorLandmark> marks = author_landmarks(found, put);
   ASSERT_EQ(marks.size(), 3u);
   EXPECT_FALSE(marks[0].by_person);
@@ -354,17 +383,22 @@ TEST(AuthorLandmarks, APersonsPointStandsApartAndIsTakenBack) {
   EXPECT_EQ(marks[2].title().english, "central pit");
   EXPECT_EQ(*marks[2].found_mm, *found.central_pit_mm);
   EXPECT_EQ(marks[2].at_mm, (Vec3{0.1, 0, 1})) << "to a thousandth";
-  EXPECT_EQ(author_landmarks(found, without_landmark(put, "central_pit", found))[2].at_mm, *found.central_pit_mm);
-  EXPECT_EQ(with_landmark(put, "cusp_2", {0, -2, 2}), put) << "in its place: the tooth's bytes stay";
-  EXPECT_THROW((void)without_landmark(with_landmark(put, "cusp_3", {1, 1, 1}), "cusp_2", found), Error) << "cusp 3 would have no place";
+  EXPECT_EQ(author_landmarks(found, without_landmark(put, "central_pit", found))[2].at_mm,
+            *found.central_pit_mm);
+  EXPECT_EQ(with_landmark(put, "cusp_2", {0, -2, 2}), put)
+      << "in its place: the tooth's bytes stay";
+  EXPECT_THROW((void)without_landmark(with_landmark(put, "cusp_3", {1, 1, 1}), "cusp_2", found),
+               Error)
+      << "cusp 3 would have no place";
 }
 
 TEST(AuthorLandmarks, ALineOfSightMeetsTheOutsideOrThePulp) {
   // a ball of dentin of 3 mm with a ball of pulp of 1 mm in it
   const Tooth ball = testing::make_tooth(
-      {-4, -4, -4}, {4, 4, 4}, 0.1, [](Vec3 p) -> std::uint8_t { return length(p) < 1   ? k_pulp
-                                                                        : length(p) < 3 ? k_dentin
-                                                                                        : k_air; },
+      {-4, -4, -4}, {4, 4, 4}, 0.1,
+      [](Vec3 p) -> std::uint8_t {
+        return length(p) < 1 ? k_pulp : length(p) < 3 ? k_dentin : k_air;
+      },
       [](Vec3 p) { return std::max(length(p) - 3, 1 - length(p)); });
   const testing_basics::Folder folder;
   save_tooth_file(ball, folder.file("ball.cvt"));
@@ -376,14 +410,17 @@ TEST(AuthorLandmarks, ALineOfSightMeetsTheOutsideOrThePulp) {
       const double along = -dot(eye, way), off2 = dot(eye, eye) - along * along;
       return eye + way * (along - std::sqrt(radius * radius - off2));
     };
-    const auto pit = landmark_in_sight(tooth, "central_pit", eye, way, is), horn = landmark_in_sight(tooth, "pulp_horn_1", eye, way, is),
+    const auto pit = landmark_in_sight(tooth, "central_pit", eye, way, is),
+               horn = landmark_in_sight(tooth, "pulp_horn_1", eye, way, is),
                mouth = landmark_in_sight(tooth, "canal_mouth_1", eye, way, is);
     ASSERT_TRUE(pit && horn && mouth);
     EXPECT_LT(length(*pit - entry(3)), 0.02);
     EXPECT_LT(length(*horn - entry(1)), 0.15) << "known to a leaf";
     EXPECT_NEAR(dot(*mouth - is, way), 0, 1e-9) << "as far away as it is";
   }
-  EXPECT_FALSE(landmark_in_sight(tooth, "central_pit", eye, normalized(Vec3{3.2, -1, 0} - eye), is).has_value()) << "beside the tooth";
+  EXPECT_FALSE(landmark_in_sight(tooth, "central_pit", eye, normalized(Vec3{3.2, -1, 0} - eye), is)
+                   .has_value())
+      << "beside the tooth";
   EXPECT_TRUE(hidden_in_tooth(tooth, {0, 0, 30}, {0, 0, -3}));
   EXPECT_FALSE(hidden_in_tooth(tooth, {0, 0, 30}, {0, 0, 3}));
 }

@@ -1,4 +1,5 @@
-// The authoring view for tests: the real program on a virtual screen, its keys pressed by a script, in a folder of its own.
+// The authoring view for tests: the real program on a virtual screen, its keys pressed by a script,
+// in a folder of its own.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +15,9 @@
 
 namespace cavum::station {
 
-inline const std::string k_class_1 = std::string(CAVUM_SOURCE_DIR) + "/tests/ui/station/class_1_by_points.toml";  // its outline is drawn, not found
+inline const std::string k_class_1 =
+    std::string(CAVUM_SOURCE_DIR) +
+    "/tests/ui/station/class_1_by_points.toml";  // its outline is drawn, not found
 
 /// `text` with one part replaced by another; the part must be there once.
 inline std::string replaced(std::string text, const std::string& part, const std::string& by) {
@@ -27,7 +30,8 @@ class AuthorWindow : public ::testing::Test {
   static void SetUpTestSuite() { screen_ = std::make_unique<testing_station::VirtualScreen>(); }
   static void TearDownTestSuite() { screen_.reset(); }
   void SetUp() override {
-    if (!screen_->there()) GTEST_SKIP() << "SKIPPED: no Xvfb on this computer, so no window can be opened";
+    if (!screen_->there())
+      GTEST_SKIP() << "SKIPPED: no Xvfb on this computer, so no window can be opened";
     ::setenv("CAVUM_DATA", CAVUM_SOURCE_DIR "/data", 1);
     write_text_file(file(), read_text_file(k_class_1));
   }
@@ -35,12 +39,15 @@ class AuthorWindow : public ::testing::Test {
 
   [[nodiscard]] std::string file() const { return folder_.file("class_1.toml"); }
   /// For what does not depend on the tooth: it is laid out in half the time.
-  void on_the_block() const { write_text_file(file(), replaced(read_text_file(k_class_1), "lower_molar.cvt", "block.cvt")); }
+  void on_the_block() const {
+    write_text_file(file(), replaced(read_text_file(k_class_1), "lower_molar.cvt", "block.cvt"));
+  }
   [[nodiscard]] std::string said() const { return read_text_file(folder_.file("err")); }
   int run(const std::string& script, const std::string& more = "") const {
     write_text_file(folder_.file("script"), script);
-    const int status = std::system((CAVUM_BINARY " station --author " + file() + " --script " + folder_.file("script") +
-                                    " --pictures " CAVUM_PICTURES + " " + more + " >" + folder_.file("out") + " 2>" + folder_.file("err"))
+    const int status = std::system((CAVUM_BINARY " station --author " + file() + " --script " +
+                                    folder_.file("script") + " --pictures " CAVUM_PICTURES + " " +
+                                    more + " >" + folder_.file("out") + " 2>" + folder_.file("err"))
                                        .c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   }

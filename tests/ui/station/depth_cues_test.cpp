@@ -1,6 +1,7 @@
-// Does the picture show how far the head of the bur is from the tooth? Drawn poses of an instrument, each touching and 0.3, 1 and 3 mm above, are
-// rendered; what is compared is taken from pixels alone. Where the instrument stands in the picture is worked out from its profile and the camera,
-// the height of touching from the octree: nothing asks the renderer.
+// Does the picture show how far the head of the bur is from the tooth? Drawn poses of an
+// instrument, each touching and 0.3, 1 and 3 mm above, are rendered; what is compared is taken from
+// pixels alone. Where the instrument stands in the picture is worked out from its profile and the
+// camera, the height of touching from the octree: nothing asks the renderer.
 //   CAVUM_DEEP=1 station_test --gtest_filter='DepthCues*'      60 poses instead of 12
 //   CAVUM_SPRAY=1 ...                                           through spray and chips
 #include <epoxy/gl.h>
@@ -36,14 +37,17 @@ std::vector<Colour> colours_seen(Scene& scene, const SceneView& view) {
   int wide = 0, high = 0;
   glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &wide);
   glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &high);
-  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(wide) * static_cast<std::size_t>(high) * 4);
+  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(wide) * static_cast<std::size_t>(high) *
+                                   4);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
   std::vector<Colour> seen;
   for (int y = 0; y < k_high; ++y)
     for (int x = 0; x < k_wide; ++x) {
-      const std::uint8_t* p = pixels.data() + static_cast<std::ptrdiff_t>(4) * (y * high / k_high * wide + x * wide / k_wide);
-      seen.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+      const std::uint8_t* p = pixels.data() + static_cast<std::ptrdiff_t>(4) *
+                                                  (y * high / k_high * wide + x * wide / k_wide);
+      seen.push_back(
+          {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
     }
   return seen;
 }
@@ -58,7 +62,8 @@ void keep(const std::string& name, const std::vector<Colour>& seen) {
 }
 
 glm::vec2 pixel_of(const Camera& camera, Vec3 mm) {
-  const glm::vec4 p = camera.projection(static_cast<float>(k_wide) / k_high) * camera.view() * glm::vec4(mm.x, mm.y, mm.z, 1);
+  const glm::vec4 p = camera.projection(static_cast<float>(k_wide) / k_high) * camera.view() *
+                      glm::vec4(mm.x, mm.y, mm.z, 1);
   return {(0.5F + 0.5F * p.x / p.w) * k_wide, (0.5F + 0.5F * p.y / p.w) * k_high};
 }
 
@@ -89,7 +94,8 @@ Vec3 placed(const Pose& pose, Vec3 tool_mm) {
 }
 
 /// Pixels that the instrument may cover, and two around them.
-std::vector<bool> covered(const Camera& camera, const Pose& pose, const std::vector<Vec3>& surface) {
+std::vector<bool> covered(const Camera& camera, const Pose& pose,
+                          const std::vector<Vec3>& surface) {
   constexpr int k_margin = 3;
   std::vector<bool> mask(static_cast<std::size_t>(k_wide) * k_high);
   for (const Vec3 p : surface) {
@@ -97,7 +103,8 @@ std::vector<bool> covered(const Camera& camera, const Pose& pose, const std::vec
     for (int dy = -k_margin; dy <= k_margin; ++dy)
       for (int dx = -k_margin; dx <= k_margin; ++dx) {
         const int x = static_cast<int>(at.x) + dx, y = static_cast<int>(at.y) + dy;
-        if (x >= 0 && y >= 0 && x < k_wide && y < k_high) mask[static_cast<std::size_t>(y * k_wide + x)] = true;
+        if (x >= 0 && y >= 0 && x < k_wide && y < k_high)
+          mask[static_cast<std::size_t>(y * k_wide + x)] = true;
       }
   }
   return mask;
@@ -108,7 +115,8 @@ struct Touch {
   Pose pose;
   Vec3 tool_mm;  ///< of the instrument, tool frame
 };
-/// The tip's height along the tool's axis at which the instrument touches and nothing of it is inside.
+/// The tip's height along the tool's axis at which the instrument touches and nothing of it is
+/// inside.
 Touch touching(const Octree& tooth, Pose pose, const std::vector<Vec3>& surface) {
   Octree::Cursor cursor;
   const Vec3 axis = placed({{0, 0, 0}, pose.rotation}, {0, 0, 1});
@@ -149,10 +157,12 @@ bool in_sight(const Octree& tooth, const Camera& camera, Vec3 place) {
 /// What an eye sees of the ring below the head.
 struct Cues {
   int pixels = 0;      ///< of the tooth that lost far more red than blue
-  double wide_mm = 0;  ///< how far to the left or right of the tip all but a fiftieth of them reach, by the scale at the tip
+  double wide_mm = 0;  ///< how far to the left or right of the tip all but a fiftieth of them
+                       ///< reach, by the scale at the tip
 };
 
-Cues cues_of(const std::vector<Colour>& without, const std::vector<Colour>& with, const std::vector<bool>& mask, double tip_px, double px_per_mm) {
+Cues cues_of(const std::vector<Colour>& without, const std::vector<Colour>& with,
+             const std::vector<bool>& mask, double tip_px, double px_per_mm) {
   constexpr float k_tooth = 45.0F;  // the background is darker
   constexpr float k_less_red = 0.72F;
   constexpr int k_fewest = 12;
@@ -162,7 +172,8 @@ Cues cues_of(const std::vector<Colour>& without, const std::vector<Colour>& with
       const auto i = static_cast<std::size_t>(y * k_wide + x);
       const Colour &was = without[i], &is = with[i];
       if (mask[i] || 0.3F * was.r + 0.6F * was.g + 0.1F * was.b < k_tooth) continue;
-      if ((is.r + 1) / (was.r + 1) < k_less_red * (is.b + 1) / (was.b + 1)) across.push_back(std::fabs(x - tip_px));
+      if ((is.r + 1) / (was.r + 1) < k_less_red * (is.b + 1) / (was.b + 1))
+        across.push_back(std::fabs(x - tip_px));
     }
   Cues c;
   c.pixels = static_cast<int>(across.size());
@@ -184,7 +195,8 @@ class DepthCues : public ::testing::Test {
   static void SetUpTestSuite() { screen_ = std::make_unique<testing_station::VirtualScreen>(); }
   static void TearDownTestSuite() { screen_.reset(); }
   void SetUp() override {
-    if (!screen_->there()) GTEST_SKIP() << "SKIPPED: no Xvfb on this computer, so no window can be opened";
+    if (!screen_->there())
+      GTEST_SKIP() << "SKIPPED: no Xvfb on this computer, so no window can be opened";
   }
 
  private:
@@ -194,7 +206,8 @@ class DepthCues : public ::testing::Test {
 TEST_F(DepthCues, TheRingTellsTouchingAndHowHighTheHeadIs) {
   const bool deep = std::getenv("CAVUM_DEEP") != nullptr;
   const int poses = deep ? 60 : 12;
-  // the everyday poses are the first of the sixty of seed 5, the same every time: what held once must hold again; sixty others say how often
+  // the everyday poses are the first of the sixty of seed 5, the same every time: what held once
+  // must hold again; sixty others say how often
   const char* other = deep ? std::getenv("CAVUM_TEST_SEED") : nullptr;
   Random random(other != nullptr ? std::strtoull(other, nullptr, 10) : 5);
   MolarShape shape;
@@ -209,10 +222,13 @@ TEST_F(DepthCues, TheRingTellsTouchingAndHowHighTheHeadIs) {
   // a cavity two millimetres deep in the middle; one pose in three stands over it
   std::vector<RemovedLeaf> removed;
   removed.reserve(1 << 17);
-  const auto cavity = [top_mm](Vec3 mm) { return std::max(std::hypot(mm.x, mm.y) - 1.7, top_mm - 2.0 - mm.z); };
+  const auto cavity = [top_mm](Vec3 mm) {
+    return std::max(std::hypot(mm.x, mm.y) - 1.7, top_mm - 2.0 - mm.z);
+  };
   ASSERT_TRUE(tooth.octree.carve({-2, -2, top_mm - 2.5}, {2, 2, top_mm + 3}, cavity, removed));
   std::vector<Bur> tray;
-  for (const auto& name : testing_engine::bur_names()) tray.push_back(testing_engine::shipped_bur(name));
+  for (const auto& name : testing_engine::bur_names())
+    tray.push_back(testing_engine::shipped_bur(name));
 
   const Window window({"Cavum", 640, 480, {}});
   Scene scene(tooth.octree, tooth.tissues, tray, nullptr);
@@ -237,7 +253,8 @@ TEST_F(DepthCues, TheRingTellsTouchingAndHowHighTheHeadIs) {
       const Bur& drawn = tray[static_cast<std::size_t>(view.bur)];
       surface = surface_of(drawn);
       touch = touching(tooth.octree, pose, surface);
-      fits = touch.tool_mm.z < 0.8 * drawn.head_radius_mm && in_sight(tooth.octree, view.camera, placed(touch.pose, touch.tool_mm));
+      fits = touch.tool_mm.z < 0.8 * drawn.head_radius_mm &&
+             in_sight(tooth.octree, view.camera, placed(touch.pose, touch.tool_mm));
     }
     const Pose& pose = touch.pose;
     const Bur& bur = tray[static_cast<std::size_t>(view.bur)];
@@ -252,7 +269,8 @@ TEST_F(DepthCues, TheRingTellsTouchingAndHowHighTheHeadIs) {
     for (std::size_t h = 0; h < k_above_mm.size(); ++h) {
       view.tool = {pose.tip_mm + axis * k_above_mm[h], pose.rotation};
       const glm::dvec2 tip = pixel_of(view.camera, view.tool.tip_mm);
-      const double px_per_mm = glm::length(glm::dvec2(pixel_of(view.camera, view.tool.tip_mm + view.camera.right() * 1.0)) - tip);
+      const double px_per_mm = glm::length(
+          glm::dvec2(pixel_of(view.camera, view.tool.tip_mm + view.camera.right() * 1.0)) - tip);
       const std::vector<Colour> seen = colours_seen(scene, view);
       cues[h] = cues_of(bare, seen, covered(view.camera, view.tool, surface), tip.x, px_per_mm);
       if (n < k_kept) keep(fmt::format("depth-{}-{:.1f}", n, k_above_mm[h]), seen);
@@ -260,18 +278,22 @@ TEST_F(DepthCues, TheRingTellsTouchingAndHowHighTheHeadIs) {
     }
     const bool touches = cues[0].pixels < cues[1].pixels / 4;
     constexpr double k_wider_mm = 0.05;
-    const bool order = cues[1].wide_mm + k_wider_mm < cues[2].wide_mm && cues[2].wide_mm + k_wider_mm < cues[3].wide_mm;
+    const bool order = cues[1].wide_mm + k_wider_mm < cues[2].wide_mm &&
+                       cues[2].wide_mm + k_wider_mm < cues[3].wide_mm;
     touch_right += touches ? 1 : 0;
     order_right += order ? 1 : 0;
     right += touches && order ? 1 : 0;
     alone_right += alone ? 1 : 0;
     if (!touches || !order || !alone)
-      std::printf("pose %d, %s%s, rise %.0f: %d %d %d %d pixels; %.2f %.2f %.2f mm wide%s\n", n, bur.name.c_str(), in_cavity ? " in the cavity" : "",
-                  static_cast<double>(view.camera.rise_deg), cues[0].pixels, cues[1].pixels, cues[2].pixels, cues[3].pixels, cues[1].wide_mm,
-                  cues[2].wide_mm, cues[3].wide_mm, touches && order ? " (in order)" : "");
+      std::printf("pose %d, %s%s, rise %.0f: %d %d %d %d pixels; %.2f %.2f %.2f mm wide%s\n", n,
+                  bur.name.c_str(), in_cavity ? " in the cavity" : "",
+                  static_cast<double>(view.camera.rise_deg), cues[0].pixels, cues[1].pixels,
+                  cues[2].pixels, cues[3].pixels, cues[1].wide_mm, cues[2].wide_mm, cues[3].wide_mm,
+                  touches && order ? " (in order)" : "");
   }
-  std::printf("of %d poses: touching told from 0.3 mm in %d; 0.3, 1 and 3 mm in order in %d; all of it in %d; each height by its one picture in %d\n",
-              poses, touch_right, order_right, right, alone_right);
+  std::printf(
+      "of %d poses: touching told from 0.3 mm in %d; 0.3, 1 and 3 mm in order in %d; all of it in %d; each height by its one picture in %d\n",
+      poses, touch_right, order_right, right, alone_right);
   EXPECT_GE(right, poses * 95 / 100);
 }
 

@@ -1,5 +1,6 @@
-// What keyboard and mouse come to, without any window: nothing is lost at any rate of pictures, and held keys go by time. The tutorial, the gauge's
-// words, and what a locked station knows of keyboards, codes and second starts.
+// What keyboard and mouse come to, without any window: nothing is lost at any rate of pictures, and
+// held keys go by time. The tutorial, the gauge's words, and what a locked station knows of
+// keyboards, codes and second starts.
 #include "ui/station/input_queue.h"
 
 #define GLFW_INCLUDE_NONE
@@ -20,9 +21,12 @@
 namespace cavum::station {
 namespace {
 
-InputEvent key_event(int key, bool down, double t_s) { return {.kind = InputEvent::Kind::key, .code = key, .down = down, .t_s = t_s}; }
+InputEvent key_event(int key, bool down, double t_s) {
+  return {.kind = InputEvent::Kind::key, .code = key, .down = down, .t_s = t_s};
+}
 
-/// Where a hand that did this has brought the tip, at so many pictures a second; `late_s`: how much later than due each picture comes, in turn.
+/// Where a hand that did this has brought the tip, at so many pictures a second; `late_s`: how much
+/// later than due each picture comes, in turn.
 Vec3 brought_to(const std::vector<InputEvent>& did, double rate_hz, double until_s = 3.0) {
   InputQueue queue;
   PointerView view;
@@ -71,7 +75,8 @@ TEST(InputQueue, TwentyTapsInOnePictureAreTwentyTapsInTheirOrder) {
     for (const InputEvent& e : queue.play(0.3 + 0.1 * picture))
       if (e.down) pressed.push_back(e.code);
   ASSERT_EQ(pressed.size(), 20u);
-  for (int i = 0; i < 20; ++i) EXPECT_EQ(pressed[static_cast<std::size_t>(i)], i % 3 == 0 ? GLFW_KEY_A : GLFW_KEY_B) << i;
+  for (int i = 0; i < 20; ++i)
+    EXPECT_EQ(pressed[static_cast<std::size_t>(i)], i % 3 == 0 ? GLFW_KEY_A : GLFW_KEY_B) << i;
 }
 
 TEST(InputQueue, AModifierWhoseReleaseSomebodyElseTookIsLetGoOfWithTheNextKey) {
@@ -96,7 +101,8 @@ TEST(InputQueue, LettersAndWheelKeepTheirPlaceBetweenKeys) {
   queue.push({.kind = InputEvent::Kind::text, .code = 'b', .t_s = 0.13});
   std::string order;
   for (const double now_s : {0.2, 0.3})
-    for (const InputEvent& e : queue.play(now_s)) order += e.kind == InputEvent::Kind::text ? static_cast<char>(e.code) : e.down ? '<' : '>';
+    for (const InputEvent& e : queue.play(now_s))
+      order += e.kind == InputEvent::Kind::text ? static_cast<char>(e.code) : e.down ? '<' : '>';
   EXPECT_EQ(order, "a<>b");
 }
 
@@ -105,38 +111,49 @@ TEST(PointerHand, AHeldKeyBringsTheTipAsFarAt10PicturesASecondAsAt60) {
   Random random(seed);
   for (int i = 0; i < 50; ++i) {
     const double from_s = 0.2 + random.uniform(), held_s = 0.012 + 1.2 * random.uniform();
-    const std::vector<InputEvent> did{key_event(GLFW_KEY_RIGHT, true, from_s), key_event(GLFW_KEY_RIGHT, false, from_s + held_s)};
-    const double expected = k_pointer_step_mm + k_pointer_mm_s * std::max(0.0, held_s - HeldKeyLaw{}.wait_s);
+    const std::vector<InputEvent> did{key_event(GLFW_KEY_RIGHT, true, from_s),
+                                      key_event(GLFW_KEY_RIGHT, false, from_s + held_s)};
+    const double expected =
+        k_pointer_step_mm + k_pointer_mm_s * std::max(0.0, held_s - HeldKeyLaw{}.wait_s);
     for (const double rate_hz : {10.0, 23.0, 60.0, 144.0})
-      EXPECT_NEAR(brought_to(did, rate_hz).x, expected, 1e-9) << rate_hz << " pictures a second, held " << held_s << " s, seed " << seed;
+      EXPECT_NEAR(brought_to(did, rate_hz).x, expected, 1e-9)
+          << rate_hz << " pictures a second, held " << held_s << " s, seed " << seed;
   }
 }
 
 TEST(PointerHand, ATapIsOneStepAndShiftMakesItFiner) {
-  const std::vector<InputEvent> tap{key_event(GLFW_KEY_PAGE_DOWN, true, 0.3), key_event(GLFW_KEY_PAGE_DOWN, false, 0.312)};
-  for (const double rate_hz : {10.0, 60.0}) EXPECT_NEAR(brought_to(tap, rate_hz).z, -k_pointer_step_mm, 1e-12);
-  const std::vector<InputEvent> fine{key_event(GLFW_KEY_LEFT_SHIFT, true, 0.1), key_event(GLFW_KEY_PAGE_DOWN, true, 0.3),
-                                     key_event(GLFW_KEY_PAGE_DOWN, false, 0.312), key_event(GLFW_KEY_LEFT_SHIFT, false, 0.9)};
-  for (const double rate_hz : {10.0, 60.0}) EXPECT_NEAR(brought_to(fine, rate_hz).z, -k_pointer_fine * k_pointer_step_mm, 1e-12);
+  const std::vector<InputEvent> tap{key_event(GLFW_KEY_PAGE_DOWN, true, 0.3),
+                                    key_event(GLFW_KEY_PAGE_DOWN, false, 0.312)};
+  for (const double rate_hz : {10.0, 60.0})
+    EXPECT_NEAR(brought_to(tap, rate_hz).z, -k_pointer_step_mm, 1e-12);
+  const std::vector<InputEvent> fine{
+      key_event(GLFW_KEY_LEFT_SHIFT, true, 0.1), key_event(GLFW_KEY_PAGE_DOWN, true, 0.3),
+      key_event(GLFW_KEY_PAGE_DOWN, false, 0.312), key_event(GLFW_KEY_LEFT_SHIFT, false, 0.9)};
+  for (const double rate_hz : {10.0, 60.0})
+    EXPECT_NEAR(brought_to(fine, rate_hz).z, -k_pointer_fine * k_pointer_step_mm, 1e-12);
 }
 
 TEST(PointerHand, AWindowThatStoodStillPlungesNoTip) {
-  const std::vector<InputEvent> did{key_event(GLFW_KEY_PAGE_DOWN, true, 0.5), key_event(GLFW_KEY_PAGE_DOWN, false, 2.5)};
-  EXPECT_GT(brought_to(did, 0.4, 10.0).z, -k_pointer_step_mm - k_pointer_mm_s * 2.0 * InputQueue::k_longest_picture_s);
+  const std::vector<InputEvent> did{key_event(GLFW_KEY_PAGE_DOWN, true, 0.5),
+                                    key_event(GLFW_KEY_PAGE_DOWN, false, 2.5)};
+  EXPECT_GT(brought_to(did, 0.4, 10.0).z,
+            -k_pointer_step_mm - k_pointer_mm_s * 2.0 * InputQueue::k_longest_picture_s);
 }
 
 TEST(PointerHand, StaysNearTheTooth) {
   const Vec3 low{-5, -5, -20}, high{5, 5, 1}, start{0, 0, 9};
   EXPECT_EQ(near_tooth(low, high, start, {1, 2, -3}), (Vec3{1, 2, -3}));
-  EXPECT_EQ(near_tooth(low, high, start, {40, -40, -99}), (Vec3{5 + k_pointer_room_mm, -5 - k_pointer_room_mm, -20 - k_pointer_room_mm}));
-  EXPECT_EQ(near_tooth(low, high, start, {0, 0, 99}), (Vec3{0, 0, start.z})) << "where it began belongs to it";
+  EXPECT_EQ(near_tooth(low, high, start, {40, -40, -99}),
+            (Vec3{5 + k_pointer_room_mm, -5 - k_pointer_room_mm, -20 - k_pointer_room_mm}));
+  EXPECT_EQ(near_tooth(low, high, start, {0, 0, 99}), (Vec3{0, 0, start.z}))
+      << "where it began belongs to it";
 }
 
 /// From a place back above a tooth; how far it went.
-double came_back(const WayBack& way, Vec3 tip, double step_mm) {
+double came_back(const ReturnPath& way, Vec3 tip, double step_mm) {
   double gone = 0;
   for (int i = 0; i < 20000 && !(tip == way.goal); ++i) {
-    const Vec3 next = next_on_way_back(way, tip, step_mm);
+    const Vec3 next = next_on_return_path(way, tip, step_mm);
     EXPECT_LE(length(next - tip), step_mm + 1e-9) << "it travels";
     EXPECT_FALSE(way.in_tissue(next)) << next.x << " " << next.y << " " << next.z;
     gone += length(next - tip);
@@ -152,14 +169,16 @@ TEST(PointerHand, ComesBackAboveTheToothFromBesideItBelowItsBulgeAndFromACavity)
     const bool crown = length(p) < 5.0, root = std::hypot(p.x, p.y) < 2.0 && p.z < 0 && p.z > -18;
     return (crown || root) && !(std::hypot(p.x, p.y) < 0.7 && p.z > 2.0);
   };
-  const WayBack way{{0, 0, 9}, {0, 0, 1}, tissue};
+  const ReturnPath way{{0, 0, 9}, {0, 0, 1}, tissue};
   for (const double step_mm : {0.02, 0.3}) {
-    EXPECT_NEAR(came_back(way, {0.2, 0, 2.5}, step_mm), 6.5 + 0.2, 1e-6) << "straight out of the hole";
-    EXPECT_LT(came_back(way, {2.3, 0, -14}, step_mm), 23 + 2 * 7.0) << "from beside the root, below the crown";
+    EXPECT_NEAR(came_back(way, {0.2, 0, 2.5}, step_mm), 6.5 + 0.2, 1e-6)
+        << "straight out of the hole";
+    EXPECT_LT(came_back(way, {2.3, 0, -14}, step_mm), 23 + 2 * 7.0)
+        << "from beside the root, below the crown";
     EXPECT_LT(came_back(way, {-6, 4, -20}, step_mm), 29 + 9.0) << "out of all tissue";
     EXPECT_LT(came_back(way, {5.05, 0, 0.1}, step_mm), 9 + 9.0) << "leaning on the crown";
   }
-  const WayBack lingual{{0, -6, 3}, normalized(Vec3{0, -1, 0.5}), tissue};
+  const ReturnPath lingual{{0, -6, 3}, normalized(Vec3{0, -1, 0.5}), tissue};
   EXPECT_LT(came_back(lingual, {0, 5.5, 0}, 0.1), 40.0) << "from the other side of the tooth";
 }
 
@@ -175,7 +194,8 @@ TEST(PointerHand, TheMouseGoesOnWithoutAnEdgeAndCtrlTiltsAsFarAsItMay) {
   }
   EXPECT_NEAR(tip.x, 25000 * view.mm_per_px, 1e-6);
   queue.push(key_event(GLFW_KEY_LEFT_CONTROL, true, 6.0));
-  for (int i = 0; i < 200; ++i) queue.push({.kind = InputEvent::Kind::motion, .t_s = 6.0 + 0.001 * i, .x = 50.0F});
+  for (int i = 0; i < 200; ++i)
+    queue.push({.kind = InputEvent::Kind::motion, .t_s = 6.0 + 0.001 * i, .x = 50.0F});
   queue.play(7.0);
   move_by_pointer(queue, view, tip, rotation_of_hand);
   EXPECT_NEAR(tip.x, 25000 * view.mm_per_px, 1e-6) << "it tilts, and does not move";
@@ -197,7 +217,8 @@ TEST(PointerHand, PressesNoDeeperThanItReachesAndStaysFreeToLift) {
 }
 
 TEST(DepthGauge, Shows0AtTheSurfaceAlone) {
-  for (const auto& [mm, shown] : {std::pair{0.0, "0.0 mm"}, {1.24, "1.2 mm"}, {-0.7, "0.7 mm"}, {-4.0, "4.0 mm"}})
+  for (const auto& [mm, shown] :
+       {std::pair{0.0, "0.0 mm"}, {1.24, "1.2 mm"}, {-0.7, "0.7 mm"}, {-4.0, "4.0 mm"}})
     EXPECT_NE(english_text(depth_text(mm)).find(shown), std::string::npos) << mm;
   EXPECT_NE(depth_text(0.7), depth_text(-0.7)) << "above is not below";
   for (double mm = -9.0; mm < 9.0; mm += 0.037) {
@@ -207,12 +228,17 @@ TEST(DepthGauge, Shows0AtTheSurfaceAlone) {
 }
 
 TEST(ColourKey, NamesTheTargetAndEachTissueOnce) {
-  const std::vector<Tissue> tissues{{k_enamel, "enamel", true}, {k_dentin, "dentin", true}, {k_pulp, "pulp", false}, {9, "lesion", true}};
+  const std::vector<Tissue> tissues{{k_enamel, "enamel", true},
+                                    {k_dentin, "dentin", true},
+                                    {k_pulp, "pulp", false},
+                                    {9, "lesion", true}};
   for (const bool high_contrast : {false, true}) {
     const auto key = colour_key(tissues, high_contrast);
     ASSERT_EQ(key.size(), 5u) << "what is to be removed, and the tissues";
-    for (std::size_t i = 0; i < 3; ++i) EXPECT_NE(english_text(key[i + 1].word).find(tissues[i].name), std::string::npos);
-    EXPECT_EQ(english_text(key[4].word).find("lesion"), std::string::npos) << "it is called what candidates call it";
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NE(english_text(key[i + 1].word).find(tissues[i].name), std::string::npos);
+    EXPECT_EQ(english_text(key[4].word).find("lesion"), std::string::npos)
+        << "it is called what candidates call it";
   }
 }
 
@@ -249,7 +275,8 @@ TEST(Tutorial, GoesOnByWhatThePersonDidAndEndsInAHole) {
   s.rpm = 200000;
   s.tip_mm.z = 0.6;
   see(5);
-  for (const char* mm : {"0.4", "0.5 mm"}) EXPECT_NE(english_text(t.text()).find(mm), std::string::npos) << english_text(t.text());
+  for (const char* mm : {"0.4", "0.5 mm"})
+    EXPECT_NE(english_text(t.text()).find(mm), std::string::npos) << english_text(t.text());
   s.tip_mm.z = 0.45;
   see(6);
   s.contact = s.cutting = false;
@@ -264,12 +291,14 @@ TEST(Tutorial, GoesOnByWhatThePersonDidAndEndsInAHole) {
 
 TEST(KeyboardWatch, SeesAKeyboardThatIsPluggedInAndNoMouse) {
   const testing_basics::Folder folder;
-  const std::string mouse = "I: Bus=0003\nN: Name=\"A Mouse\"\nP: Phys=usb-1/input0\nB: EV=17\nB: KEY=ff0000 0 0 0 0\n\n";
+  const std::string mouse =
+      "I: Bus=0003\nN: Name=\"A Mouse\"\nP: Phys=usb-1/input0\nB: EV=17\nB: KEY=ff0000 0 0 0 0\n\n";
   const auto keyboard = [](const std::string& name) {
     return "I: Bus=0003\nN: Name=\"" + name +
            "\"\nP: Phys=usb-2/input0\nB: EV=120013\nB: KEY=1000000000007 ff9f207ac14057ff febeffdfffefffff fffffffffffffffe\n\n";
   };
-  const std::string button = "I: Bus=0019\nN: Name=\"Power Button\"\nP: Phys=PNP0C0C/button/input0\nB: EV=3\nB: KEY=10000000000000 0\n\n";
+  const std::string button =
+      "I: Bus=0019\nN: Name=\"Power Button\"\nP: Phys=PNP0C0C/button/input0\nB: EV=3\nB: KEY=10000000000000 0\n\n";
   EXPECT_EQ(keyboards_in(mouse + button).size(), 0u);
   write_text_file(folder.file("devices"), mouse + keyboard("First"));
   KeyboardWatch watch(folder.file("devices"));

@@ -1,5 +1,5 @@
-// What the station's picture is made of, without a window: thinned patches that stay closed, light and tissues of a place, closed instruments, and
-// effects that follow what pictures take.
+// What the station's picture is made of, without a window: thinned patches that stay closed, light
+// and tissues of a place, closed instruments, and effects that follow what pictures take.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,8 @@ class Pile {
  public:
   void add(const std::array<std::array<float, 3>, 3>& corners) {
     std::array<int, 3> n{};
-    for (std::size_t i = 0; i < 3; ++i) n[i] = number_.emplace(corners[i], static_cast<int>(number_.size())).first->second;
+    for (std::size_t i = 0; i < 3; ++i)
+      n[i] = number_.emplace(corners[i], static_cast<int>(number_.size())).first->second;
     for (std::size_t i = 0; i < 3; ++i) {
       const int a = n[i], b = n[(i + 1) % 3];
       if (a < b) ++edge_[{a, b}];
@@ -33,7 +34,8 @@ class Pile {
     }
     ++triangles_;
     for (std::size_t i = 0; i < 3; ++i)
-      six_volume_ += corners[0][i] * (corners[1][(i + 1) % 3] * corners[2][(i + 2) % 3] - corners[1][(i + 2) % 3] * corners[2][(i + 1) % 3]);
+      six_volume_ += corners[0][i] * (corners[1][(i + 1) % 3] * corners[2][(i + 2) % 3] -
+                                      corners[1][(i + 2) % 3] * corners[2][(i + 1) % 3]);
   }
   /// As many triangles along an edge one way as the other.
   [[nodiscard]] bool closed() const {
@@ -61,41 +63,51 @@ TEST(ThinnedPatches, AreClosedTogetherWhateverTheirCells) {
   const Vec3 reach{2, 2, 2};
   ASSERT_TRUE(tooth.octree.carve(cut.centre_mm - reach, cut.centre_mm + reach, cut, removed));
   const LeafBlocks leaves(tooth.octree);
-  for (const std::uint8_t own : {SurfacePatches::k_hard_tissue, static_cast<std::uint8_t>(k_pulp)}) {
+  for (const std::uint8_t own :
+       {SurfacePatches::k_hard_tissue, static_cast<std::uint8_t>(k_pulp)}) {
     const SurfacePatches surface(leaves, own);
     const IVec3 size = surface.size();
-    for (const std::vector<int>& drawn : {std::vector<int>{1, 2, 2, 2}, {1, 4, 4, 4}, {1, 2, 4, 4}, {1, 2, 4, 8}}) {
+    for (const std::vector<int>& drawn :
+         {std::vector<int>{1, 2, 2, 2}, {1, 4, 4, 4}, {1, 2, 4, 4}, {1, 2, 4, 8}}) {
       std::vector<int> cells(surface.count());
       for (int& c : cells) c = drawn[random.below(drawn.size())];
       Pile thin, all;
       for (std::size_t i = 0; i < surface.count(); ++i) {
         const auto n = static_cast<int>(i);
-        PatchPlace place{{n % size.x, n / size.x % size.y, n / size.x / size.y}, leaves.leaf_mm(), leaves.origin_mm(), {}};
+        PatchPosition place{{n % size.x, n / size.x % size.y, n / size.x / size.y},
+                            leaves.leaf_mm(),
+                            leaves.origin_mm(),
+                            {}};
         for (int dz = -1; dz <= 1; ++dz)
           for (int dy = -1; dy <= 1; ++dy)
             for (int dx = -1; dx <= 1; ++dx) {
               const IVec3 p = place.number + IVec3{dx, dy, dz};
               const bool there = lies_in(p, size);
-              if (there) place.cells[PatchPlace::beside(dx, dy, dz)] = cells[static_cast<std::size_t>((p.z * size.y + p.y) * size.x + p.x)];
+              if (there)
+                place.cells[PatchPosition::beside(dx, dy, dz)] =
+                    cells[static_cast<std::size_t>((p.z * size.y + p.y) * size.x + p.x)];
             }
         const SurfacePatch made = thinned(surface.patch(i), place);
         for (const auto& t : made.triangles)
-          thin.add({made.vertices[t[0]].position_mm, made.vertices[t[1]].position_mm, made.vertices[t[2]].position_mm});
+          thin.add({made.vertices[t[0]].position_mm, made.vertices[t[1]].position_mm,
+                    made.vertices[t[2]].position_mm});
         const SurfacePatch& before = surface.patch(i);
         for (const auto& t : before.triangles)
-          all.add({before.vertices[t[0]].position_mm, before.vertices[t[1]].position_mm, before.vertices[t[2]].position_mm});
+          all.add({before.vertices[t[0]].position_mm, before.vertices[t[1]].position_mm,
+                   before.vertices[t[2]].position_mm});
       }
       ASSERT_TRUE(all.closed());
       const int coarsest = drawn.back();
       EXPECT_TRUE(thin.closed()) << "tissue " << int{own} << ", cells of up to " << coarsest;
       EXPECT_LT(thin.triangles(), all.triangles() * 3 / 4);
-      EXPECT_NEAR(thin.volume(), all.volume(), 0.02 * coarsest * all.volume());  // chords lie inside what bulges
+      EXPECT_NEAR(thin.volume(), all.volume(),
+                  0.02 * coarsest * all.volume());  // chords lie inside what bulges
     }
   }
 }
 
 TEST(ThinnedPatches, RefuseCellsThatDoNotFit) {
-  PatchPlace place;
+  PatchPosition place;
   EXPECT_THROW(static_cast<void>(thinned({}, place)), Error);  // none of its own
   place.cells.fill(3);
   EXPECT_THROW(static_cast<void>(thinned({}, place)), Error);
@@ -112,7 +124,9 @@ TEST(ToothShading, LittleLightReachesTheFloorOfADeepHole) {
   LeafBlocks leaves(tooth.octree);
   float before = flat;
   for (const double deep_mm : {0.5, 1.0, 2.0}) {
-    const auto hole = [deep_mm](Vec3 mm) { return std::max(std::hypot(mm.x, mm.y) - 0.7, -deep_mm - mm.z); };
+    const auto hole = [deep_mm](Vec3 mm) {
+      return std::max(std::hypot(mm.x, mm.y) - 0.7, -deep_mm - mm.z);
+    };
     ASSERT_TRUE(tooth.octree.carve({-1, -1, -2.5}, {1, 1, 0.5}, hole, removed));
     std::vector<LeafBounds> changed;
     leaves.take(tooth.octree, changed);
@@ -122,12 +136,14 @@ TEST(ToothShading, LittleLightReachesTheFloorOfADeepHole) {
     EXPECT_LT(open, before - 0.05F);
     before = open;
     // as if it had been made anew
-    EXPECT_FLOAT_EQ(open, ToothShading{leaves}.open({0, 0, static_cast<float>(-deep_mm)}, {0, 0, 1}));
+    EXPECT_FLOAT_EQ(open,
+                    ToothShading{leaves}.open({0, 0, static_cast<float>(-deep_mm)}, {0, 0, 1}));
   }
   EXPECT_LT(before, 0.45F);
 }
 
-// The line between enamel and dentin runs at an angle to the leaves; where the shares are equal must not follow their steps.
+// The line between enamel and dentin runs at an angle to the leaves; where the shares are equal
+// must not follow their steps.
 TEST(ToothShading, TheBorderOfEnamelAndDentinRunsSmoothly) {
   TissueGrid grid;
   constexpr double k_leaf_of_slope_mm = 0.05, k_slope = 0.23;
@@ -137,10 +153,13 @@ TEST(ToothShading, TheBorderOfEnamelAndDentinRunsSmoothly) {
     for (int y = 0; y < 60; ++y)
       for (int x = 0; x < 60; ++x) {
         const Vec3 mm = grid.centre_mm({x, y, z});
-        const double outside_mm = std::max({std::fabs(mm.x) - 1.2, std::fabs(mm.y) - 1.2, mm.z + 0.2, -1.8 - mm.z});
+        const double outside_mm =
+            std::max({std::fabs(mm.x) - 1.2, std::fabs(mm.y) - 1.2, mm.z + 0.2, -1.8 - mm.z});
         const bool in = outside_mm < 0;
         grid.distance[grid.index({x, y, z})] = encode_distance(outside_mm / k_leaf_of_slope_mm);
-        grid.tissue[grid.index({x, y, z})] = !in ? k_air : mm.z > border_mm(mm.x) ? k_enamel : k_dentin;
+        grid.tissue[grid.index({x, y, z})] = !in                      ? k_air
+                                             : mm.z > border_mm(mm.x) ? k_enamel
+                                                                      : k_dentin;
       }
   const Octree tree(grid, standard_tissues());
   const LeafBlocks leaves(tree);
@@ -151,7 +170,8 @@ TEST(ToothShading, TheBorderOfEnamelAndDentinRunsSmoothly) {
   int looked_at = 0;
   for (std::size_t i = 0; i < surface.count(); ++i) {
     const auto n = static_cast<int>(i);
-    const auto shaded = shading.shaded(leaves, surface.patch(i), {n % size.x, n / size.x % size.y, n / size.x / size.y}, k_air);
+    const auto shaded = shading.shaded(
+        leaves, surface.patch(i), {n % size.x, n / size.x % size.y, n / size.x / size.y}, k_air);
     const auto dentin = [&](std::size_t v) {
       const auto& t = shaded[v].tissue;
       return (t[0] == k_dentin ? 255 - t[2] : 0) + (t[1] == k_dentin && t[0] != t[1] ? t[2] : 0);
@@ -160,7 +180,8 @@ TEST(ToothShading, TheBorderOfEnamelAndDentinRunsSmoothly) {
       for (std::size_t e = 0; e < 3; ++e) {
         const std::size_t a = t[e], b = t[(e + 1) % 3];
         const auto &p = shaded[a].at_mm, &q = shaded[b].at_mm;
-        if (p[1] < 1.15F || q[1] < 1.15F || std::fabs(p[0]) > 0.9F) continue;  // one side of the block
+        if (p[1] < 1.15F || q[1] < 1.15F || std::fabs(p[0]) > 0.9F)
+          continue;  // one side of the block
         const double da = dentin(a) - 127.5, db = dentin(b) - 127.5;
         if (da * db >= 0) continue;
         const double f = da / (da - db), x = p[0] + f * (q[0] - p[0]), z = p[2] + f * (q[2] - p[2]);
@@ -177,7 +198,8 @@ TEST(InstrumentMesh, AllItsBodiesAreClosedAndFaceOutwards) {
   const auto check = [](const MeshData& mesh, const std::string& name) {
     Pile pile;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-      pile.add({mesh.vertices[mesh.indices[i]].at_mm, mesh.vertices[mesh.indices[i + 1]].at_mm, mesh.vertices[mesh.indices[i + 2]].at_mm});
+      pile.add({mesh.vertices[mesh.indices[i]].at_mm, mesh.vertices[mesh.indices[i + 1]].at_mm,
+                mesh.vertices[mesh.indices[i + 2]].at_mm});
     EXPECT_TRUE(pile.closed()) << name;
     EXPECT_GT(pile.volume(), 0.0) << name;
   };
@@ -192,7 +214,10 @@ TEST(InstrumentMesh, AllItsBodiesAreClosedAndFaceOutwards) {
 TEST(EffectGovernor, SettlesOnTheRichestLevelThatTheComputerKeepsUpWith) {
   // what a picture of each level takes, ms, by budget 60
   const std::vector<std::pair<std::array<double, 6>, std::size_t>> computers{
-      {{400, 200, 150, 90, 50, 30}, 4}, {{400, 300, 250, 200, 150, 100}, 5}, {{20, 15, 12, 10, 8, 6}, 0}, {{200, 100, 50, 20, 10, 8}, 2}};
+      {{400, 200, 150, 90, 50, 30}, 4},
+      {{400, 300, 250, 200, 150, 100}, 5},
+      {{20, 15, 12, 10, 8, 6}, 0},
+      {{200, 100, 50, 20, 10, 8}, 2}};
   for (const auto& [ms, settled] : computers) {
     EffectGovernor governor(60.0, 3);
     for (int i = 0; i < 20000; ++i) governor.took(ms[governor.level()]);

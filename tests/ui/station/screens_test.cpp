@@ -1,4 +1,5 @@
-// What stands behind the screens and needs no window: the check of the devices, the coach, the camera, the gauges' words.
+// What stands behind the screens and needs no window: the check of the devices, the coach, the
+// camera, the gauges' words.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,7 +49,9 @@ DeviceReading reading(Vec3 tip, double pedal, int flags = k_stylus_fresh | k_ped
 }
 
 /// What the check says of a device once `enough` is true, or after 20 s.
-std::array<CheckItem, 3> checked(ServoDevice& device, const std::function<bool(const std::array<CheckItem, 3>&, const DeviceSight&)>& enough) {
+std::array<CheckItem, 3> checked(
+    ServoDevice& device,
+    const std::function<bool(const std::array<CheckItem, 3>&, const DeviceSight&)>& enough) {
   DeviceCheck check(device);
   for (int i = 0; i < 2000; ++i) {
     const DeviceSight sight = check.sight();
@@ -59,25 +62,31 @@ std::array<CheckItem, 3> checked(ServoDevice& device, const std::function<bool(c
 }
 
 TEST(DeviceCheck, IsContentWithAHandAtRestAndAPedalThatWentDownAndUp) {
-  Scripted device([](double t) { return reading({0.05 * std::sin(9 * t), 0, 5}, t > 0.3 && t < 0.8 ? 1.0 : 0.0); });
+  Scripted device([](double t) {
+    return reading({0.05 * std::sin(9 * t), 0, 5}, t > 0.3 && t < 0.8 ? 1.0 : 0.0);
+  });
   const auto items = checked(device, [](const auto& i, const auto&) { return all_good(i); });
-  EXPECT_TRUE(all_good(items)) << items[0].detail << " / " << english_text(items[1].detail) << " / " << english_text(items[2].detail);
+  EXPECT_TRUE(all_good(items)) << items[0].detail << " / " << english_text(items[1].detail) << " / "
+                               << english_text(items[2].detail);
   EXPECT_EQ(device.most_n, 0.0) << "the check must not push the hand";
 }
 
 TEST(DeviceCheck, WaitsForAPedalThatIsOnlyHeldDownOrUnknown) {
   Scripted device([](double) { return reading({0, 0, 5}, 1.0); });
-  const auto items = checked(device, [](const auto& i, const auto&) { return i[2].state == State::good; });
+  const auto items =
+      checked(device, [](const auto& i, const auto&) { return i[2].state == State::good; });
   EXPECT_EQ(items[1].state, State::waiting);
   Scripted unknown([](double) { return reading({0, 0, 5}, 0.0, k_stylus_fresh); });
-  const auto others = checked(unknown, [](const auto& i, const auto&) { return i[2].state == State::good; });
+  const auto others =
+      checked(unknown, [](const auto& i, const auto&) { return i[2].state == State::good; });
   EXPECT_EQ(others[1].state, State::waiting);
   EXPECT_NE(items[1].detail, others[1].detail) << "of one that is unknown it says something else";
 }
 
 TEST(DeviceCheck, SeesAHandThatHasNoRest) {
   Scripted device([](double t) { return reading({1.5 * std::sin(6 * t), 0, 5}, 0.0); });
-  const auto items = checked(device, [](const auto&, const DeviceSight& s) { return s.wander_mm < 100; });
+  const auto items =
+      checked(device, [](const auto&, const DeviceSight& s) { return s.wander_mm < 100; });
   EXPECT_EQ(items[2].state, State::waiting);
   EXPECT_FALSE(items[2].detail.empty());
 }
@@ -94,13 +103,16 @@ TEST(DeviceCheck, SaysWhatAFailingDeviceSaid) {
     if (t > 0.05) throw std::runtime_error("the cable was pulled");
     return reading({}, 0.0);
   });
-  const auto items = checked(device, [](const auto& i, const auto&) { return i[0].state == State::bad; });
+  const auto items =
+      checked(device, [](const auto& i, const auto&) { return i[0].state == State::bad; });
   EXPECT_EQ(items[0].state, State::bad);
   EXPECT_TRUE(tells(items[0].detail, "the cable was pulled")) << items[0].detail;
 }
 
 TEST(Desk, PutsBurSpeedAndButtonsIntoTheReading) {
-  Scripted device([](double) { return reading({1, 2, 3}, 0.8, k_stylus_fresh | k_pedal_fresh | k_button_1); });
+  Scripted device([](double) {
+    return reading({1, 2, 3}, 0.8, k_stylus_fresh | k_pedal_fresh | k_button_1);
+  });
   Desk desk;
   WithDesk with(device, desk);
   EXPECT_EQ(with.read(0.001).bur, 0);
@@ -116,7 +128,8 @@ TEST(Desk, PutsBurSpeedAndButtonsIntoTheReading) {
 }
 
 TEST(ReplayMoments, HoldEventsAndLostPointsInTheOrderOfTime) {
-  const std::vector<TimedEvent> events{{100, StepCompleted{}}, {100, Perforated{}}, {300, StylusSilent{}}};
+  const std::vector<TimedEvent> events{
+      {100, StepCompleted{}}, {100, Perforated{}}, {300, StylusSilent{}}};
   const std::string result =
       R"({"criteria":[{"title":"Depth","points":3.5,"max":10,"first_tick":50},{"title":"Full","points":5,"max":5,"first_tick":60},
           {"title":"Time","points":0,"max":2,"first_tick":null}]})";
@@ -133,9 +146,13 @@ TEST(ReplayMoments, HoldEventsAndLostPointsInTheOrderOfTime) {
   // by keys through all of them, also two of one tick
   std::vector<int> down, up;
   int at = -1;
-  for (std::int64_t tick = 0; (at = moment_beside(moments, tick, at, 1)) >= 0; tick = moments[static_cast<std::size_t>(at)].tick) down.push_back(at);
+  for (std::int64_t tick = 0; (at = compared_moment(moments, tick, at, 1)) >= 0;
+       tick = moments[static_cast<std::size_t>(at)].tick)
+    down.push_back(at);
   EXPECT_EQ(down, (std::vector<int>{0, 1, 2, 3}));
-  for (std::int64_t tick = 401; (at = moment_beside(moments, tick, at, -1)) >= 0; tick = moments[static_cast<std::size_t>(at)].tick) up.push_back(at);
+  for (std::int64_t tick = 401; (at = compared_moment(moments, tick, at, -1)) >= 0;
+       tick = moments[static_cast<std::size_t>(at)].tick)
+    up.push_back(at);
   EXPECT_EQ(up, (std::vector<int>{3, 2, 1, 0}));
 }
 
@@ -144,11 +161,13 @@ class Coach : public ::testing::Test {
   static void SetUpTestSuite() {
     scenarios::ExamOptions options;
     options.candidate = "t";
-    setup_ = scenarios::prepare_exam(std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml", options);
+    setup_ = scenarios::prepare_exam(
+        std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml", options);
     setup_->scenario.force_limit_n = 2.0;
   }
   static void TearDownTestSuite() { setup_.reset(); }
-  /// Cutting at a place of the block, whose cavity is a cylinder of 1.1 mm, 1.6 mm deep below z = 0.
+  /// Cutting at a place of the block, whose cavity is a cylinder of 1.1 mm, 1.6 mm deep below z =
+  /// 0.
   static scenarios::LiveView cutting(Vec3 at) {
     scenarios::LiveView v;
     v.output.proxy_mm = at;
@@ -176,7 +195,8 @@ TEST_F(Coach, TellsOfAHeadThatIsCaughtUnderAnEdge) {
   v.output.normal = normalized(Vec3{0.5, 0, -1});
   v.input.tip_nm = {0, 0, 400'000};
   const Message caught = hint(v);
-  EXPECT_TRUE(!caught.empty() && caught.values().empty()) << "nothing is said of the force of 3.3 N: " << caught;
+  EXPECT_TRUE(!caught.empty() && caught.values().empty())
+      << "nothing is said of the force of 3.3 N: " << caught;
   v.output.normal = {0, 0, 1};  // it stands on the floor
   EXPECT_TRUE(tells(hint(v), Value(as_number(3.3)))) << hint(v);
 }
@@ -185,7 +205,9 @@ TEST_F(Coach, MeasuresHowFarBesideTheTargetTheTipIs) {
   EXPECT_NE(english_text(hint(cutting({1.1 + 0.7, 0, -0.6}))).find("0.7 mm"), std::string::npos);
 }
 
-TEST_F(Coach, TellsThatTheFloorIsNear) { EXPECT_NE(english_text(hint(cutting({0, 0, -1.4}))).find("0.2 mm"), std::string::npos); }
+TEST_F(Coach, TellsThatTheFloorIsNear) {
+  EXPECT_NE(english_text(hint(cutting({0, 0, -1.4}))).find("0.2 mm"), std::string::npos);
+}
 
 TEST_F(Coach, TellsOfAHandpieceThatTurnsInTheAir) {
   scenarios::LiveView v = cutting({0, 0, 4});
@@ -196,7 +218,8 @@ TEST_F(Coach, TellsOfAHandpieceThatTurnsInTheAir) {
 }
 
 /// A novice's exam in a file; with its setup.
-std::unique_ptr<scenarios::ExamSetup> record_novice(const std::string& scenario, const std::string& file) {
+std::unique_ptr<scenarios::ExamSetup> record_novice(const std::string& scenario,
+                                                    const std::string& file) {
   scenarios::ExamOptions options;
   options.candidate = "t";
   auto setup = scenarios::prepare_exam(std::string(CAVUM_SOURCE_DIR) + scenario, options);
@@ -219,24 +242,30 @@ void expect_within_a_second(const std::string& scenario) {
   ::setenv("CAVUM_HOME", folder.file("home").c_str(), 1);
   (void)record_novice(scenario, folder.file("s.cavum"));
   ReplayPlayer player(folder.file("s.cavum"));
-  while (player.reached() < player.ticks()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  while (player.reached() < player.ticks())
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
   double slowest_s = 0, slowest_clock_s = 0;
   for (int i = 0; i < 24; ++i) {
     const auto began = std::chrono::steady_clock::now();
     const double from_s = thread_s();
-    player.seek((player.ticks() * ((i * 7) % 24) + player.ticks() / 2) / 24);  // far from where it was, and from any snapshot
+    player.seek((player.ticks() * ((i * 7) % 24) + player.ticks() / 2) /
+                24);  // far from where it was, and from any snapshot
     while (!player.work(0.05)) continue;
     slowest_s = std::max(slowest_s, thread_s() - from_s);
-    slowest_clock_s = std::max(slowest_clock_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
+    slowest_clock_s =
+        std::max(slowest_clock_s,
+                 std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
   }
-  std::printf("%s, %.0f s long: the slowest of 24 moments is there after %.3f s of the processor, %.3f s by the clock\n", scenario.c_str(),
-              static_cast<double>(player.ticks()) * k_tick_s, slowest_s, slowest_clock_s);
+  std::printf(
+      "%s, %.0f s long: the slowest of 24 moments is there after %.3f s of the processor, %.3f s by the clock\n",
+      scenario.c_str(), static_cast<double>(player.ticks()) * k_tick_s, slowest_s, slowest_clock_s);
   EXPECT_LT(slowest_s, 1.0);
 }
 
 TEST(ReplayPlayer, IsAtAnyMomentWithinASecondOfTheProcessor) {
   expect_within_a_second("/tests/replay/block_cavity.toml");
-  if (std::getenv("CAVUM_DEEP") != nullptr) expect_within_a_second("/data/scenarios/molar_access.toml");
+  if (std::getenv("CAVUM_DEEP") != nullptr)
+    expect_within_a_second("/data/scenarios/molar_access.toml");
 }
 
 TEST(ReplayPlayer, ShowsTheRecordedStateWhereverItIsSent) {
@@ -251,14 +280,16 @@ TEST(ReplayPlayer, ShowsTheRecordedStateWhereverItIsSent) {
     while (!player.work(0.01)) continue;
     ASSERT_EQ(player.tick(), tick);
   };
-  // every second once, in an order that jumps forth and back; the recording's own hashes are what to find there
+  // every second once, in an order that jumps forth and back; the recording's own hashes are what
+  // to find there
   const std::uint64_t seed = testing_basics::drawn_seed("ReplayPlayer");
   Random random(seed);
   for (int i = 0; i < 12; ++i) {
     const ChunkRow& chunk = chunks[random.below(static_cast<std::uint32_t>(chunks.size()))];
     if (chunk.ticks == 0) continue;
     go(chunk.first_tick + chunk.ticks);
-    EXPECT_EQ(player.hash(), chunk.state_hash) << "after tick " << chunk.first_tick + chunk.ticks << ", seed " << seed;
+    EXPECT_EQ(player.hash(), chunk.state_hash)
+        << "after tick " << chunk.first_tick + chunk.ticks << ", seed " << seed;
   }
   go(player.ticks());
   EXPECT_NE(player.runner().finish, Finish::running);
@@ -268,7 +299,8 @@ TEST(ReplayPlayer, ShowsTheRecordedStateWhereverItIsSent) {
   EXPECT_EQ(player.tooth().count_leaves(), setup->tooth.octree.count_leaves());
   // once the snapshots reach the end, no moment is further from one than they lie apart
   const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(2);
-  while (player.reached() < player.ticks() && std::chrono::steady_clock::now() < until) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  while (player.reached() < player.ticks() && std::chrono::steady_clock::now() < until)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
   ASSERT_EQ(player.reached(), player.ticks());
   const std::int64_t late = player.ticks() - 1;
   player.seek(0);
@@ -320,7 +352,8 @@ TEST(Camera, BothEyesMeetAtWhatIsLookedAtAndPartBeforeIt) {
   c.eyes_apart_mm = 3.0F;
   EXPECT_NEAR(seen(c, c.target_mm, -1).x, seen(c, c.target_mm, 1).x, 1e-4F);
   const glm::vec3 nearer = c.position_mm() * 0.25F;  // towards the eyes
-  EXPECT_GT(seen(c, nearer, -1).x, seen(c, nearer, 1).x + 0.002F) << "the left eye sees what is near further right";
+  EXPECT_GT(seen(c, nearer, -1).x, seen(c, nearer, 1).x + 0.002F)
+      << "the left eye sees what is near further right";
 }
 
 TEST(Camera, ItsRightAndUpAreThoseOfThePicture) {
@@ -337,11 +370,14 @@ TEST(Camera, ItsRightAndUpAreThoseOfThePicture) {
 }
 
 TEST(Theme, TellsItsSignsApartByLightnessInBothPalettes) {
-  const auto lightness = [](const ImVec4& c) { return 0.2126F * c.x + 0.7152F * c.y + 0.0722F * c.z; };
+  const auto lightness = [](const ImVec4& c) {
+    return 0.2126F * c.x + 0.7152F * c.y + 0.0722F * c.z;
+  };
   for (const bool high_contrast : {false, true}) {
     const Theme t = make_theme(high_contrast, 1.0);
     EXPECT_GT(lightness(t.text) - lightness(t.panel), high_contrast ? 0.9F : 0.7F);
-    for (const ImVec4& sign : {t.good, t.warn, t.bad, t.accent, t.quiet}) EXPECT_GT(lightness(sign) - lightness(t.panel), 0.35F);
+    for (const ImVec4& sign : {t.good, t.warn, t.bad, t.accent, t.quiet})
+      EXPECT_GT(lightness(sign) - lightness(t.panel), 0.35F);
     EXPECT_GT(lightness(t.accent) - lightness(t.on_accent), 0.45F);
   }
 }

@@ -1,4 +1,5 @@
-// A sitting without any window: the stages follow one another, and whoever looks at it from another thread finds whole values.
+// A sitting without any window: the stages follow one another, and whoever looks at it from another
+// thread finds whole values.
 #include "ui/station/sitting.h"
 
 #include <gtest/gtest.h>
@@ -86,8 +87,10 @@ class FullDiskSitting : public SittingTest {
     sitting_.begin();
     ASSERT_TRUE(goes_on(sitting_, [&] { return sitting_.live().view().ticks > 1300; }));
     full_.emplace(std::filesystem::file_size(options_.out + "-wal") + 1500);
-    ASSERT_TRUE(goes_on(sitting_, [&] { return !sitting_.live().view().recording_error.empty(); })) << "the candidate is told";
-    ASSERT_TRUE(goes_on(sitting_, [&] { return sitting_.live().view().unwritten_ticks > 1500; })) << "and goes on working";
+    ASSERT_TRUE(goes_on(sitting_, [&] { return !sitting_.live().view().recording_error.empty(); }))
+        << "the candidate is told";
+    ASSERT_TRUE(goes_on(sitting_, [&] { return sitting_.live().view().unwritten_ticks > 1500; }))
+        << "and goes on working";
     sitting_.ask_to_end();
     ASSERT_TRUE(goes_on(sitting_, [&] { return sitting_.stage() == Stage::unsaved; }));
     EXPECT_GT(sitting_.unwritten_s(), 1.5);
@@ -188,7 +191,8 @@ TEST_F(SittingTest, WhereNothingCanBeRecordedNothingBegins) {
   ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::checking; }));
   EXPECT_THROW(sitting.begin(), Error);
   EXPECT_EQ(sitting.stage(), Stage::checking);
-  EXPECT_TRUE(goes_on(sitting, [&] { return sitting.sight().read_once; })) << "the device is watched on";
+  EXPECT_TRUE(goes_on(sitting, [&] { return sitting.sight().read_once; }))
+      << "the device is watched on";
 }
 
 TEST_F(SittingTest, BeginsAtTheSecondPlaceWhenTheFirstRefuses) {
@@ -199,8 +203,10 @@ TEST_F(SittingTest, BeginsAtTheSecondPlaceWhenTheFirstRefuses) {
   ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::checking; }));
   sitting.begin();
   for (const std::string& path : {options_.out, sitting.path()})
-    EXPECT_NE(english_text(sitting.moved()).find(path), std::string::npos) << "told at once: " << sitting.moved();
-  EXPECT_EQ(std::filesystem::path(sitting.path()).parent_path(), std::filesystem::path(options_.out_if_full));
+    EXPECT_NE(english_text(sitting.moved()).find(path), std::string::npos)
+        << "told at once: " << sitting.moved();
+  EXPECT_EQ(std::filesystem::path(sitting.path()).parent_path(),
+            std::filesystem::path(options_.out_if_full));
   ASSERT_TRUE(goes_on(sitting, [&] { return sitting.live().view().ticks > 1200; }));
   EXPECT_EQ(sitting.live().view().recording_error, Message());
   sitting.ask_to_end();
@@ -213,19 +219,23 @@ TEST_F(SittingTest, GivesEachCandidateAFileOfHisOwnInAFolder) {
   Sitting sitting(options_, "A/../7");
   ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::checking; }));
   sitting.begin();
-  EXPECT_EQ(std::filesystem::path(sitting.path()).parent_path(), std::filesystem::path(folder_.file("")).parent_path());
+  EXPECT_EQ(std::filesystem::path(sitting.path()).parent_path(),
+            std::filesystem::path(folder_.file("")).parent_path());
   EXPECT_NE(sitting.path().find("block_cavity-A_.._7-"), std::string::npos) << sitting.path();
   EXPECT_TRUE(std::filesystem::exists(sitting.path()));
 }
 
 TEST_F(SittingTest, OnlyWhoHasATicketSitsAndAsItPromises) {
   const testing_ledger::School school;
-  const std::string ticket = school.ticket("4711", [](records::Ticket& t) { t.grant = {{"accommodation.extra_time_percent", "50"}}; });
+  const std::string ticket = school.ticket("4711", [](records::Ticket& t) {
+    t.grant = {{"accommodation.extra_time_percent", "50"}};
+  });
   const std::string candidate = records::parse_ticket(ticket, "", "ticket").candidate;
   options_.tickets = school.file("tickets");
   std::filesystem::create_directories(options_.tickets);
   write_text_file(options_.tickets + "/" + candidate + ".ticket", ticket + "\n");
-  EXPECT_THROW(Sitting(options_, "4711"), Error) << "the code is the pseudonym, and nothing that others know";
+  EXPECT_THROW(Sitting(options_, "4711"), Error)
+      << "the code is the pseudonym, and nothing that others know";
   EXPECT_THROW(Sitting(options_, "../tickets/" + candidate), Error);
   int asked = 0;
   options_.word = [&asked](const std::string&) {  // an office that does not answer
@@ -245,13 +255,15 @@ TEST_F(SittingTest, OnlyWhoHasATicketSitsAndAsItPromises) {
   std::string bare = candidate, spaced = typed;  // without dashes; with blanks in their place
   std::erase(bare, '-');
   std::replace(spaced.begin(), spaced.end(), '-', ' ');
-  for (const std::string& code : {bare, spaced}) EXPECT_EQ(Sitting(options_, code).candidate(), candidate) << code;
+  for (const std::string& code : {bare, spaced})
+    EXPECT_EQ(Sitting(options_, code).candidate(), candidate) << code;
   EXPECT_THROW(Sitting(options_, bare.substr(0, 12)), Error) << "a letter is missing";
   EXPECT_THROW(Sitting(options_, bare + "0"), Error) << "one too many";
   const int before = asked;
   options_.model = "paper";
   Sitting other(options_, candidate);
-  EXPECT_THROW(goes_on(other, [&] { return other.stage() == Stage::checking; }), Error) << "another force model than promised";
+  EXPECT_THROW(goes_on(other, [&] { return other.stage() == Stage::checking; }), Error)
+      << "another force model than promised";
   EXPECT_EQ(asked, before) << "the office would take it for begun";
 }
 
@@ -277,11 +289,17 @@ TEST_F(SittingTest, AnInterruptedExamGoesOnByTheOneWhoBeganIt) {
     EXPECT_EQ(sitting.candidate(), "C-7K3M-Q9WD-XT20") << "as it was begun, however it is typed";
     ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::checking; }));
     ASSERT_TRUE(sitting.begun());
-    EXPECT_NEAR(sitting.begun()->left_s, 0.001 * static_cast<double>(scenarios::exam_limit_ticks(sitting.setup().scenario) - before), 1e-9);
+    EXPECT_NEAR(
+        sitting.begun()->left_s,
+        0.001 * static_cast<double>(scenarios::exam_limit_ticks(sitting.setup().scenario) - before),
+        1e-9);
     EXPECT_EQ(sitting.begun()->bur, SessionReader(options_.out).inputs().back().bur);
-    for (const auto& removed : SessionReader(options_.out).removed()) ASSERT_EQ(sitting.begun()->tooth.tissue(removed.leaf.leaf()), k_air);
+    for (const auto& removed : SessionReader(options_.out).removed())
+      ASSERT_EQ(sitting.begun()->tooth.tissue(removed.leaf.leaf()), k_air);
     sitting.begin();
-    ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::done || sitting.live().view().ticks > before + 1500; }));
+    ASSERT_TRUE(goes_on(sitting, [&] {
+      return sitting.stage() == Stage::done || sitting.live().view().ticks > before + 1500;
+    }));
     EXPECT_EQ(SessionReader(options_.out).inputs().back().bur, sitting.begun()->bur);
     sitting.ask_to_end();
     ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::done; }));

@@ -1,4 +1,5 @@
-// Spray and chips: seen where effects have them and the candidate wants them, near the head, and never so thick that the work is hidden.
+// Spray and chips: seen where effects have them and the candidate wants them, near the head, and
+// never so thick that the work is hidden.
 #include "ui/station/spray.h"
 
 #include <epoxy/gl.h>
@@ -21,7 +22,8 @@ constexpr double k_rpm = 200000.0, k_picture_s = 0.05;
 
 Spray spray_after(double s, double rpm, bool cutting, double enamel, double dentin) {
   Spray spray;
-  for (double t = 0; t < s; t += k_picture_s) spray_on(spray, rpm, cutting, enamel, dentin, k_picture_s);
+  for (double t = 0; t < s; t += k_picture_s)
+    spray_on(spray, rpm, cutting, enamel, dentin, k_picture_s);
   return spray;
 }
 
@@ -72,7 +74,8 @@ class SprayPicture : public ::testing::Test {
     int wide = 0, high = 0;
     glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &wide);
     glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &high);
-    std::vector<std::uint8_t> pixels(static_cast<std::size_t>(wide) * static_cast<std::size_t>(high) * 3);
+    std::vector<std::uint8_t> pixels(static_cast<std::size_t>(wide) *
+                                     static_cast<std::size_t>(high) * 3);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glGetTexImage(GL_TEXTURE_2D, 0, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
     return pixels;
@@ -81,10 +84,12 @@ class SprayPicture : public ::testing::Test {
 
 TEST_F(SprayPicture, IsSeenWhereItIsWantedAndHidesLittleOfTheWork) {
   const testing_station::VirtualScreen screen;
-  if (!screen.there()) GTEST_SKIP() << "SKIPPED: no Xvfb on this computer, so no window can be opened";
+  if (!screen.there())
+    GTEST_SKIP() << "SKIPPED: no Xvfb on this computer, so no window can be opened";
   const Tooth block = make_block({8, 8, 5}, {{"enamel", 1.5}, {"dentin", 3.5}}, 0.1);
   const Window window({"Cavum", 640, 480, {}});
-  Scene scene(block.octree, block.tissues, {testing_engine::shipped_bur("cylinder-flat-1.0")}, nullptr);
+  Scene scene(block.octree, block.tissues, {testing_engine::shipped_bur("cylinder-flat-1.0")},
+              nullptr);
   SceneView view;
   view.bur = 0;
   view.camera.distance_mm = 30.0F;
@@ -99,19 +104,23 @@ TEST_F(SprayPicture, IsSeenWhereItIsWantedAndHidesLittleOfTheWork) {
     int differ = 0, much = 0, looked_at = 0;
     for (std::size_t i = 0; i + 2 < with.size(); i += 3) {
       int most = 0;
-      for (std::size_t c = 0; c < 3; ++c) most = std::max(most, std::abs(static_cast<int>(with[i + c]) - static_cast<int>(without[i + c])));
+      for (std::size_t c = 0; c < 3; ++c)
+        most = std::max(most,
+                        std::abs(static_cast<int>(with[i + c]) - static_cast<int>(without[i + c])));
       ++looked_at;
       differ += most > 4 ? 1 : 0;
       much += most > 60 ? 1 : 0;
     }
-    std::printf("effects %zu: %d of %d pixels differ, %d of them much\n", level, differ, looked_at, much);
+    std::printf("effects %zu: %d of %d pixels differ, %d of them much\n", level, differ, looked_at,
+                much);
     if (k_effects[level].drops == 0) {
       EXPECT_EQ(differ, 0) << "effects " << level;
       continue;
     }
     EXPECT_GT(differ, looked_at / 200) << "effects " << level;
     EXPECT_LT(much, looked_at / 50) << "effects " << level;
-    write_png(std::string(CAVUM_PICTURES) + "/spray-" + std::to_string(level) + ".png", k_px_wide, k_px_high, with);
+    write_png(std::string(CAVUM_PICTURES) + "/spray-" + std::to_string(level) + ".png", k_px_wide,
+              k_px_high, with);
   }
 }
 

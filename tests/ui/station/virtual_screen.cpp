@@ -20,7 +20,8 @@ VirtualScreen::VirtualScreen() {
     const std::string number = std::to_string(ends[1]);
     const int quiet = ::open("/dev/null", O_WRONLY);
     ::dup2(quiet, STDERR_FILENO);
-    ::execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "1280x800x24", "-nolisten", "tcp", static_cast<char*>(nullptr));
+    ::execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "1280x800x24",
+             "-nolisten", "tcp", static_cast<char*>(nullptr));
     ::_exit(127);
   }
   ::close(ends[1]);
@@ -29,7 +30,8 @@ VirtualScreen::VirtualScreen() {
   constexpr int k_patience_ms = 60000;
   pollfd wait{ends[0], POLLIN, 0};
   char c = 0;
-  while (::poll(&wait, 1, k_patience_ms) > 0 && ::read(ends[0], &c, 1) == 1 && c != '\n') display += c;
+  while (::poll(&wait, 1, k_patience_ms) > 0 && ::read(ends[0], &c, 1) == 1 && c != '\n')
+    display += c;
   ::close(ends[0]);
   if (display.empty()) {
     ::kill(child, SIGTERM);

@@ -1,4 +1,5 @@
-// A screen that nobody sees, for windows under test: an X server of its own, drawn by the processor.
+// A screen that nobody sees, for windows under test: an X server of its own, drawn by the
+// processor.
 #pragma once
 
 #include <sys/types.h>

@@ -26,20 +26,24 @@ struct RandrCrtc {
   XID mode;
 };
 
-/// Shows a mode (0: none) on the first screen; gives the mode that was shown, or nothing when the server cannot.
+/// Shows a mode (0: none) on the first screen; gives the mode that was shown, or nothing when the
+/// server cannot.
 bool set_screen(Display* display, XID mode, unsigned long* was) {
   void* library = ::dlopen("libXrandr.so.2", RTLD_NOW);
   if (library == nullptr) return false;
-  const auto resources_of = reinterpret_cast<RandrResources* (*)(Display*, Window)>(::dlsym(library, "XRRGetScreenResourcesCurrent"));
-  const auto crtc_of = reinterpret_cast<RandrCrtc* (*)(Display*, RandrResources*, XID)>(::dlsym(library, "XRRGetCrtcInfo"));
+  const auto resources_of = reinterpret_cast<RandrResources* (*)(Display*, Window)>(
+      ::dlsym(library, "XRRGetScreenResourcesCurrent"));
+  const auto crtc_of = reinterpret_cast<RandrCrtc* (*)(Display*, RandrResources*, XID)>(
+      ::dlsym(library, "XRRGetCrtcInfo"));
   const auto configure =
-      reinterpret_cast<int (*)(Display*, RandrResources*, XID, Time, int, int, XID, unsigned short, XID*, int)>(::dlsym(library, "XRRSetCrtcConfig"));
+      reinterpret_cast<int (*)(Display*, RandrResources*, XID, Time, int, int, XID, unsigned short,
+                               XID*, int)>(::dlsym(library, "XRRSetCrtcConfig"));
   RandrResources* all = resources_of(display, DefaultRootWindow(display));
   if (all == nullptr || all->ncrtc < 1 || all->noutput < 1) return false;
   if (was != nullptr) *was = crtc_of(display, all, all->crtcs[0])->mode;
   constexpr unsigned short k_upright = 1;
-  const int answer =
-      configure(display, all, all->crtcs[0], CurrentTime, 0, 0, mode, k_upright, mode == 0 ? nullptr : all->outputs, mode == 0 ? 0 : 1);
+  const int answer = configure(display, all, all->crtcs[0], CurrentTime, 0, 0, mode, k_upright,
+                               mode == 0 ? nullptr : all->outputs, mode == 0 ? 0 : 1);
   XSync(display, False);
   return answer == 0;
 }
@@ -54,10 +58,14 @@ XHand::XHand() {
   if (library_ == nullptr) return;
   display_ = XOpenDisplay(nullptr);
   if (display_ == nullptr) return;
-  fake_key_ = reinterpret_cast<int (*)(void*, unsigned, int, unsigned long)>(::dlsym(library_, "XTestFakeKeyEvent"));
-  fake_motion_ = reinterpret_cast<int (*)(void*, int, int, unsigned long)>(::dlsym(library_, "XTestFakeRelativeMotionEvent"));
-  fake_place_ = reinterpret_cast<int (*)(void*, int, int, int, unsigned long)>(::dlsym(library_, "XTestFakeMotionEvent"));
-  fake_button_ = reinterpret_cast<int (*)(void*, unsigned, int, unsigned long)>(::dlsym(library_, "XTestFakeButtonEvent"));
+  fake_key_ = reinterpret_cast<int (*)(void*, unsigned, int, unsigned long)>(
+      ::dlsym(library_, "XTestFakeKeyEvent"));
+  fake_motion_ = reinterpret_cast<int (*)(void*, int, int, unsigned long)>(
+      ::dlsym(library_, "XTestFakeRelativeMotionEvent"));
+  fake_place_ = reinterpret_cast<int (*)(void*, int, int, int, unsigned long)>(
+      ::dlsym(library_, "XTestFakeMotionEvent"));
+  fake_button_ = reinterpret_cast<int (*)(void*, unsigned, int, unsigned long)>(
+      ::dlsym(library_, "XTestFakeButtonEvent"));
 }
 
 XHand::~XHand() {
@@ -66,7 +74,8 @@ XHand::~XHand() {
 }
 
 void XHand::key(const std::string& key, bool down) const {
-  fake_key_(display_, XKeysymToKeycode(display_of(display_), XStringToKeysym(key.c_str())), down ? 1 : 0, 0);
+  fake_key_(display_, XKeysymToKeycode(display_of(display_), XStringToKeysym(key.c_str())),
+            down ? 1 : 0, 0);
   XFlush(display_of(display_));
 }
 
@@ -101,7 +110,8 @@ std::optional<std::pair<int, int>> XHand::see(unsigned long colour) const {
   constexpr int k_min_wide = 60;
   Display* d = display_of(display_);
   const int wide = DisplayWidth(d, DefaultScreen(d)), high = DisplayHeight(d, DefaultScreen(d));
-  XImage* image = XGetImage(d, DefaultRootWindow(d), 0, 0, static_cast<unsigned>(wide), static_cast<unsigned>(high), AllPlanes, ZPixmap);
+  XImage* image = XGetImage(d, DefaultRootWindow(d), 0, 0, static_cast<unsigned>(wide),
+                            static_cast<unsigned>(high), AllPlanes, ZPixmap);
   if (image == nullptr) return {};
   // rows of the colour's longest run that lie over one another
   int best_rows = 0, rows = 0, last = -1;
@@ -117,7 +127,9 @@ std::optional<std::pair<int, int>> XHand::see(unsigned long colour) const {
     }
     const int middle = end - longest / 2;
     const bool there = longest >= k_min_wide;
-    rows = !there ? 0 : last >= 0 && middle > last - k_min_wide && middle < last + k_min_wide ? rows + 1 : 1;
+    rows = !there                                                                  ? 0
+           : last >= 0 && middle > last - k_min_wide && middle < last + k_min_wide ? rows + 1
+                                                                                   : 1;
     last = there ? middle : -1;
     if (rows > best_rows) {
       best_rows = rows;
@@ -180,7 +192,8 @@ std::string XHand::size_of(const std::string& title) const {
   const Window window = window_of(title);
   XWindowAttributes a{};
   if (window == 0 || XGetWindowAttributes(display_of(display_), window, &a) == 0) return "none";
-  return std::to_string(a.width) + " x " + std::to_string(a.height) + " at " + std::to_string(a.x) + ", " + std::to_string(a.y);
+  return std::to_string(a.width) + " x " + std::to_string(a.height) + " at " + std::to_string(a.x) +
+         ", " + std::to_string(a.y);
 }
 
 }  // namespace cavum::testing_station

@@ -1,5 +1,6 @@
-// What the office asks of a learning platform over HTTPS: its keys, a token, its gradebook. Only addresses of hosts that an officer set up are asked,
-// no redirect is followed, and no answer is read beyond a limit.
+// What the office asks of a learning platform over HTTPS: its keys, a token, its gradebook. Only
+// addresses of hosts that an officer set up are asked, no redirect is followed, and no answer is
+// read beyond a limit.
 #pragma once
 
 #include <atomic>
@@ -25,16 +26,21 @@ struct PlatformAnswer {
   std::string link;     ///< the field `Link`, of a list with more pages
 };
 
-/// One request, in a connection of its own. Throws Error for an address that this platform may not name, PlatformUnreachable when nothing comes back.
-/// Once `stopped` is true, it ends within a second.
-[[nodiscard]] PlatformAnswer ask_platform(const LtiPlatform& platform, const std::string& method, const std::string& address,
-                                          const std::map<std::string, std::string>& fields = {}, const std::string& body = "",
+/// One request, in a connection of its own. Throws Error for an address that this platform may not
+/// name, PlatformUnreachable when nothing comes back. Once `stopped` is true, it ends within a
+/// second.
+[[nodiscard]] PlatformAnswer ask_platform(const LtiPlatform& platform, const std::string& method,
+                                          const std::string& address,
+                                          const std::map<std::string, std::string>& fields = {},
+                                          const std::string& body = "",
                                           const std::atomic<bool>* stopped = nullptr);
 
-/// Keys of platforms, kept for an hour; those of a platform whose key is not among them are fetched anew, once in a minute at most.
+/// Keys of platforms, kept for an hour; those of a platform whose key is not among them are fetched
+/// anew, once in a minute at most.
 class PlatformKeys {
  public:
-  /// A key set. Throws as ask_platform does, and PlatformUnreachable when the platform answers with anything else.
+  /// A key set. Throws as ask_platform does, and PlatformUnreachable when the platform answers with
+  /// anything else.
   [[nodiscard]] nlohmann::json of(const LtiPlatform& platform, const std::string& kid);
 
  private:

@@ -16,11 +16,14 @@ struct CoursesFile {
 // clang-format off
 CAVUM_JSON_OF(LtiCourse, (issuer), (client_id), (context), (exam), (title), (lineitems), (lineitem), (item), (scopes), (learners))
 // clang-format on
-void json_fields(auto& of, JsonOf<CoursesFile> auto& file) { of("format", JsonFormat{"cavum courses 1"}), of("courses", file.courses); }
+void json_fields(auto& of, JsonOf<CoursesFile> auto& file) {
+  of("format", JsonFormat{"cavum courses 1"}), of("courses", file.courses);
+}
 
 std::vector<LtiCourse> LtiCourses::read() const {
   if (!std::filesystem::exists(path_)) return {};
-  const JsonSource source{path_, msg("remove it: each course is in it again once somebody opens its link")};
+  const JsonSource source{
+      path_, msg("remove it: each course is in it again once somebody opens its link")};
   return json_value_of<CoursesFile>(parse_json(read_text_file(path_), path_), source).courses;
 }
 
@@ -52,7 +55,8 @@ void LtiCourses::note(const LtiLaunch& launch) {
       if (s.is_string()) told.scopes.push_back(s);
   const std::lock_guard guard(lock_);
   std::vector<LtiCourse> courses = read();
-  const auto found = std::find_if(courses.begin(), courses.end(), [&](const LtiCourse& c) { return c.is(told); });
+  const auto found =
+      std::find_if(courses.begin(), courses.end(), [&](const LtiCourse& c) { return c.is(told); });
   LtiCourse before;
   if (found != courses.end()) {
     before = *found;
@@ -61,8 +65,10 @@ void LtiCourses::note(const LtiLaunch& launch) {
   }
   if (launch.platform.may_ask(told.lineitem)) told.item = told.lineitem;
   if (!launch.teaches && !launch.id.empty()) told.learners[launch.id] = launch.sub;
-  const bool same = found != courses.end() && before.learners == told.learners && before.item == told.item && before.scopes == told.scopes &&
-                    before.lineitems == told.lineitems && before.lineitem == told.lineitem && before.title == told.title;
+  const bool same = found != courses.end() && before.learners == told.learners &&
+                    before.item == told.item && before.scopes == told.scopes &&
+                    before.lineitems == told.lineitems && before.lineitem == told.lineitem &&
+                    before.title == told.title;
   if (same) return;
   if (found == courses.end())
     courses.push_back(std::move(told));
@@ -83,20 +89,27 @@ void LtiCourses::keep_only(const std::function<bool(const std::string& id)>& kno
   const std::lock_guard guard(lock_);
   std::vector<LtiCourse> courses = read();
   std::size_t gone = 0;
-  for (auto& c : courses) gone += std::erase_if(c.learners, [&](const auto& one) { return !known(one.first); });
+  for (auto& c : courses)
+    gone += std::erase_if(c.learners, [&](const auto& one) { return !known(one.first); });
   if (gone > 0) write(courses);
 }
 
 void LtiCourses::remove(const std::string& issuer, const std::string& client_id) {
   const std::lock_guard guard(lock_);
   std::vector<LtiCourse> courses = read();
-  if (std::erase_if(courses, [&](const LtiCourse& c) { return c.issuer == issuer && c.client_id == client_id; }) > 0) write(courses);
+  if (std::erase_if(courses, [&](const LtiCourse& c) {
+        return c.issuer == issuer && c.client_id == client_id;
+      }) > 0)
+    write(courses);
 }
 
-std::string user_in(const LtiCourse& course, const std::vector<LtiCourse>& all, const std::string& claim, const std::string& id) {
-  if (const auto found = course.learners.find(id); found != course.learners.end()) return found->second;
+std::string user_in(const LtiCourse& course, const std::vector<LtiCourse>& all,
+                    const std::string& claim, const std::string& id) {
+  if (const auto found = course.learners.find(id); found != course.learners.end())
+    return found->second;
   const bool elsewhere = std::any_of(all.begin(), all.end(), [&](const LtiCourse& c) {
-    return c.issuer == course.issuer && c.client_id == course.client_id && c.exam == course.exam && c.learners.contains(id);
+    return c.issuer == course.issuer && c.client_id == course.client_id && c.exam == course.exam &&
+           c.learners.contains(id);
   });
   return claim == "sub" && !elsewhere ? id : "";
 }

@@ -81,26 +81,35 @@ HttpsAnswer Https::ask(const HttpsRequest& request) {
   Transfer transfer{request, answer};
   CURL* const h = handle_.get();
   curl_easy_reset(h);  // the connection stays
-  set(h, CURLOPT_URL, request.address.c_str(), CURLOPT_PATH_AS_IS, 1L, CURLOPT_PROTOCOLS_STR, "https", CURLOPT_PROXY, "", CURLOPT_HTTP_VERSION,
-      static_cast<long>(CURL_HTTP_VERSION_1_1), CURLOPT_SSLVERSION, static_cast<long>(CURL_SSLVERSION_TLSv1_2), CURLOPT_USERAGENT, "Cavum");
-  set(h, CURLOPT_NOSIGNAL, 1L, CURLOPT_TIMEOUT_MS, static_cast<long>(request.patience.count()), CURLOPT_NOPROGRESS, 0L, CURLOPT_XFERINFOFUNCTION,
-      is_stopped, CURLOPT_XFERINFODATA, stopped_, CURLOPT_WRITEFUNCTION, take, CURLOPT_WRITEDATA, &transfer);
-  set(h, CURLOPT_CAINFO, nullptr, CURLOPT_CAPATH, nullptr, CURLOPT_SSL_CTX_FUNCTION, set_trust, CURLOPT_SSL_CTX_DATA, &trust_, CURLOPT_SSL_VERIFYHOST,
-      trust_.exactly.empty() ? 2L : 0L);
-  if (curl_blob pem{trust_.authority.data(), trust_.authority.size(), CURL_BLOB_COPY}; pem.len != 0) set(h, CURLOPT_CAINFO_BLOB, &pem);
+  set(h, CURLOPT_URL, request.address.c_str(), CURLOPT_PATH_AS_IS, 1L, CURLOPT_PROTOCOLS_STR,
+      "https", CURLOPT_PROXY, "", CURLOPT_HTTP_VERSION, static_cast<long>(CURL_HTTP_VERSION_1_1),
+      CURLOPT_SSLVERSION, static_cast<long>(CURL_SSLVERSION_TLSv1_2), CURLOPT_USERAGENT, "Cavum");
+  set(h, CURLOPT_NOSIGNAL, 1L, CURLOPT_TIMEOUT_MS, static_cast<long>(request.patience.count()),
+      CURLOPT_NOPROGRESS, 0L, CURLOPT_XFERINFOFUNCTION, is_stopped, CURLOPT_XFERINFODATA, stopped_,
+      CURLOPT_WRITEFUNCTION, take, CURLOPT_WRITEDATA, &transfer);
+  set(h, CURLOPT_CAINFO, nullptr, CURLOPT_CAPATH, nullptr, CURLOPT_SSL_CTX_FUNCTION, set_trust,
+      CURLOPT_SSL_CTX_DATA, &trust_, CURLOPT_SSL_VERIFYHOST, trust_.exactly.empty() ? 2L : 0L);
+  if (curl_blob pem{trust_.authority.data(), trust_.authority.size(), CURL_BLOB_COPY}; pem.len != 0)
+    set(h, CURLOPT_CAINFO_BLOB, &pem);
   if (request.method != "GET")
-    set(h, CURLOPT_POST, 1L, CURLOPT_CUSTOMREQUEST, request.method.c_str(), CURLOPT_POSTFIELDSIZE_LARGE, static_cast<curl_off_t>(request.body.size()),
-        CURLOPT_READFUNCTION, give, CURLOPT_READDATA, &transfer, CURLOPT_SEEKFUNCTION, give_again, CURLOPT_SEEKDATA, &transfer);
+    set(h, CURLOPT_POST, 1L, CURLOPT_CUSTOMREQUEST, request.method.c_str(),
+        CURLOPT_POSTFIELDSIZE_LARGE, static_cast<curl_off_t>(request.body.size()),
+        CURLOPT_READFUNCTION, give, CURLOPT_READDATA, &transfer, CURLOPT_SEEKFUNCTION, give_again,
+        CURLOPT_SEEKDATA, &transfer);
   auto fields = request.fields;
-  for (const char* own : {"Expect", "Content-Type"}) fields.emplace(own, "");  // libcurl's own are left out
+  for (const char* own : {"Expect", "Content-Type"})
+    fields.emplace(own, "");  // libcurl's own are left out
   curl_slist* lines = nullptr;
-  for (const auto& [name, value] : fields) lines = curl_slist_append(lines, fmt::format("{}: {}", name, value).c_str());
+  for (const auto& [name, value] : fields)
+    lines = curl_slist_append(lines, fmt::format("{}: {}", name, value).c_str());
   const std::unique_ptr<curl_slist, void (*)(curl_slist*)> kept(lines, curl_slist_free_all);
   set(h, CURLOPT_HTTPHEADER, lines);
-  if (const CURLcode wrong = curl_easy_perform(h); wrong != CURLE_OK) answer.wrong = curl_easy_strerror(wrong);
+  if (const CURLcode wrong = curl_easy_perform(h); wrong != CURLE_OK)
+    answer.wrong = curl_easy_strerror(wrong);
   curl_easy_getinfo(h, CURLINFO_RESPONSE_CODE, &answer.status);
   curl_header* field = nullptr;
-  if (curl_easy_header(h, request.wanted_field, 0, CURLH_HEADER, -1, &field) == CURLHE_OK) answer.field = field->value;
+  if (curl_easy_header(h, request.wanted_field, 0, CURLH_HEADER, -1, &field) == CURLHE_OK)
+    answer.field = field->value;
   return answer;
 }
 

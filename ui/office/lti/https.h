@@ -1,4 +1,5 @@
-// Requests to a server elsewhere, over HTTPS by libcurl: TLS 1.2 or later, no redirect, no proxy, nothing read beyond a limit.
+// Requests to a server elsewhere, over HTTPS by libcurl: TLS 1.2 or later, no redirect, no proxy,
+// nothing read beyond a limit.
 #pragma once
 
 #include <atomic>
@@ -10,10 +11,12 @@
 
 namespace cavum::office {
 
-/// Whose certificate is taken; nothing here: those of authorities that this computer trusts, for that name.
+/// Whose certificate is taken; nothing here: those of authorities that this computer trusts, for
+/// that name.
 struct HttpsTrust {
   std::string authority;  ///< PEM of the authority, or of the server itself, which alone is trusted
-  std::string exactly;    ///< SHA-256 of the only certificate that is taken, hexadecimal, whatever its names and dates
+  std::string exactly;    ///< SHA-256 of the only certificate that is taken, hexadecimal, whatever
+                          ///< its names and dates
 };
 
 struct HttpsRequest {

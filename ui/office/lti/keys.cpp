@@ -44,10 +44,12 @@ constexpr int k_fewest_bits = 2048, k_max_bits = 8192;
 constexpr std::size_t k_longest_token = 64U << 10, k_kid_bytes = 16;
 
 Error key_error() {
-  return {msg("the office's key for learning platforms"), msg("cannot be used"), msg("have a new one made: cavum serve --new-lti-key")};
+  return {msg("the office's key for learning platforms"), msg("cannot be used"),
+          msg("have a new one made: cavum serve --new-lti-key")};
 }
 Error token_error(LtiError code, const Message& what) {
-  return {code, msg("the platform's token"), what, msg("open the link on the platform again; if it stays, tell the office")};
+  return {code, msg("the platform's token"), what,
+          msg("open the link on the platform again; if it stays, tell the office")};
 }
 
 std::string bytes_of(const BIGNUM* n) {
@@ -66,14 +68,15 @@ RsaKey private_key(const LtiKey& key) {
 Big number_in(const json& jwk, const char* name) {
   const auto bytes = from_base64url(text_in(jwk, name));
   if (!bytes || bytes->empty()) return {};
-  return Big(BN_bin2bn(reinterpret_cast<const unsigned char*>(bytes->data()), static_cast<int>(bytes->size()), nullptr));
+  return Big(BN_bin2bn(reinterpret_cast<const unsigned char*>(bytes->data()),
+                       static_cast<int>(bytes->size()), nullptr));
 }
 
 /// Null: it is no RSA key that we take.
 RsaKey public_key(const json& jwk) {
   const Big n = number_in(jwk, "n"), e = number_in(jwk, "e");
-  if (!n || !e || BN_num_bits(n.get()) < k_fewest_bits || BN_num_bits(n.get()) > k_max_bits || BN_num_bits(e.get()) > 64 || !BN_is_odd(e.get()) ||
-      BN_is_one(e.get()))
+  if (!n || !e || BN_num_bits(n.get()) < k_fewest_bits || BN_num_bits(n.get()) > k_max_bits ||
+      BN_num_bits(e.get()) > 64 || !BN_is_odd(e.get()) || BN_is_one(e.get()))
     return {};
   const Builder builder(OSSL_PARAM_BLD_new());
   if (!builder || OSSL_PARAM_BLD_push_BN(builder.get(), OSSL_PKEY_PARAM_RSA_N, n.get()) != 1 ||
@@ -94,7 +97,8 @@ bool names_stand_once(const std::string& text) {
   bool once = true;
   const json::parser_callback_t look = [&](int, json::parse_event_t event, json& value) {
     if (event == json::parse_event_t::object_start) open.emplace_back();
-    if (event == json::parse_event_t::key) once = once && open.back().insert(value.get<std::string>()).second;
+    if (event == json::parse_event_t::key)
+      once = once && open.back().insert(value.get<std::string>()).second;
     if (event == json::parse_event_t::object_end) open.pop_back();
     return true;
   };
@@ -125,7 +129,8 @@ const json* key_named(const json& keys, const std::string& kid, bool& twice) {
 }  // namespace
 
 std::string to_base64url(std::string_view bytes) {
-  return to_base64({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, Base64::in_address);
+  return to_base64({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()},
+                   Base64::in_address);
 }
 
 std::optional<std::string> from_base64url(std::string_view text) {
@@ -136,7 +141,10 @@ std::optional<std::string> from_base64url(std::string_view text) {
 LtiKey new_lti_key(std::int64_t utc_ns) {
   const RsaKey key(EVP_RSA_gen(k_own_bits));
   const Text text(BIO_new(BIO_s_mem()));
-  if (!key || !text || PEM_write_bio_PKCS8PrivateKey(text.get(), key.get(), nullptr, nullptr, 0, nullptr, nullptr) != 1) throw key_error();
+  if (!key || !text ||
+      PEM_write_bio_PKCS8PrivateKey(text.get(), key.get(), nullptr, nullptr, 0, nullptr, nullptr) !=
+          1)
+    throw key_error();
   char* data = nullptr;
   const long size = BIO_get_mem_data(text.get(), &data);
   return {records::random_hex(k_kid_bytes), {data, static_cast<std::size_t>(size)}, utc_ns};
@@ -147,19 +155,25 @@ json public_key_set(const std::vector<LtiKey>& keys) {
   for (const LtiKey& k : keys) {
     const RsaKey key = private_key(k);
     BIGNUM *n = nullptr, *e = nullptr;
-    const bool read =
-        EVP_PKEY_get_bn_param(key.get(), OSSL_PKEY_PARAM_RSA_N, &n) == 1 && EVP_PKEY_get_bn_param(key.get(), OSSL_PKEY_PARAM_RSA_E, &e) == 1;
+    const bool read = EVP_PKEY_get_bn_param(key.get(), OSSL_PKEY_PARAM_RSA_N, &n) == 1 &&
+                      EVP_PKEY_get_bn_param(key.get(), OSSL_PKEY_PARAM_RSA_E, &e) == 1;
     const Big modulus(n), exponent(e);
     if (!read) throw key_error();
-    out.push_back(
-        {{"kty", "RSA"}, {"use", "sig"}, {"alg", "RS256"}, {"kid", k.kid}, {"n", to_base64url(bytes_of(n))}, {"e", to_base64url(bytes_of(e))}});
+    out.push_back({{"kty", "RSA"},
+                   {"use", "sig"},
+                   {"alg", "RS256"},
+                   {"kid", k.kid},
+                   {"n", to_base64url(bytes_of(n))},
+                   {"e", to_base64url(bytes_of(e))}});
   }
   return {{"keys", out}};
 }
 
 std::string sign_token(const json& claims, const LtiKey& key) {
   const RsaKey by = private_key(key);
-  const std::string text = to_base64url(json{{"alg", "RS256"}, {"kid", key.kid}, {"typ", "JWT"}}.dump()) + "." + to_base64url(claims.dump());
+  const std::string text =
+      to_base64url(json{{"alg", "RS256"}, {"kid", key.kid}, {"typ", "JWT"}}.dump()) + "." +
+      to_base64url(claims.dump());
   const auto* bytes = reinterpret_cast<const unsigned char*>(text.data());
   const Digest digest(EVP_MD_CTX_new());
   std::size_t size = 0;
@@ -167,22 +181,32 @@ std::string sign_token(const json& claims, const LtiKey& key) {
       EVP_DigestSign(digest.get(), nullptr, &size, bytes, text.size()) != 1)
     throw key_error();
   std::string signature(size, '\0');
-  if (EVP_DigestSign(digest.get(), reinterpret_cast<unsigned char*>(signature.data()), &size, bytes, text.size()) != 1) throw key_error();
+  if (EVP_DigestSign(digest.get(), reinterpret_cast<unsigned char*>(signature.data()), &size, bytes,
+                     text.size()) != 1)
+    throw key_error();
   signature.resize(size);
   return text + "." + to_base64url(signature);
 }
 
 ReadToken read_token(const std::string& token) {
   const auto first = token.find('.'), last = token.rfind('.');
-  if (token.size() > k_longest_token || first == std::string::npos || token.find('.', first + 1) != last)
+  if (token.size() > k_longest_token || first == std::string::npos ||
+      token.find('.', first + 1) != last)
     throw token_error(LtiError::not_understood, msg("is none"));
   const json header = part_in(std::string_view(token).substr(0, first));
-  if (text_in(header, "alg") != "RS256") throw token_error(LtiError::algorithm, msg("is not signed by RS256"));
-  if (header.contains("crit")) throw token_error(LtiError::not_understood, msg("asks for what this office does not know"));
+  if (text_in(header, "alg") != "RS256")
+    throw token_error(LtiError::algorithm, msg("is not signed by RS256"));
+  if (header.contains("crit"))
+    throw token_error(LtiError::not_understood, msg("asks for what this office does not know"));
   const json& type = member_of(header, "typ");
-  if (!type.is_null() && type != "JWT") throw token_error(LtiError::not_understood, msg("is of another type than JWT"));
-  ReadToken read{text_in(header, "kid"), part_in(std::string_view(token).substr(first + 1, last - first - 1)), token.substr(0, last), {}};
-  if (read.kid.empty()) throw token_error(LtiError::key, msg("does not say which key has signed it"));
+  if (!type.is_null() && type != "JWT")
+    throw token_error(LtiError::not_understood, msg("is of another type than JWT"));
+  ReadToken read{text_in(header, "kid"),
+                 part_in(std::string_view(token).substr(first + 1, last - first - 1)),
+                 token.substr(0, last),
+                 {}};
+  if (read.kid.empty())
+    throw token_error(LtiError::key, msg("does not say which key has signed it"));
   const auto signature = from_base64url(std::string_view(token).substr(last + 1));
   if (!signature) throw token_error(LtiError::not_understood, msg("is none"));
   read.signature = *signature;
@@ -197,16 +221,28 @@ bool has_key(const json& keys, const std::string& kid) {
 void require_signed(const ReadToken& token, const json& keys) {
   bool twice = false;
   const json* jwk = key_named(keys, token.kid, twice);
-  if (jwk == nullptr) throw token_error(LtiError::key, msg("is signed by a key that is not the platform's"));
-  if (twice) throw token_error(LtiError::key, msg("is signed by a key whose name stands twice in the platform's key set"));
+  if (jwk == nullptr)
+    throw token_error(LtiError::key, msg("is signed by a key that is not the platform's"));
+  if (twice)
+    throw token_error(LtiError::key,
+                      msg("is signed by a key whose name stands twice in the platform's key set"));
   const json &use = member_of(*jwk, "use"), &algorithm = member_of(*jwk, "alg");
-  const RsaKey key =
-      text_in(*jwk, "kty") == "RSA" && (use.is_null() || use == "sig") && (algorithm.is_null() || algorithm == "RS256") ? public_key(*jwk) : RsaKey();
-  if (!key) throw token_error(LtiError::key, msg("is signed by a key that is none for RS256, or has fewer than 2048 bits"));
+  const RsaKey key = text_in(*jwk, "kty") == "RSA" && (use.is_null() || use == "sig") &&
+                             (algorithm.is_null() || algorithm == "RS256")
+                         ? public_key(*jwk)
+                         : RsaKey();
+  if (!key)
+    throw token_error(
+        LtiError::key,
+        msg("is signed by a key that is none for RS256, or has fewer than 2048 bits"));
   const Digest digest(EVP_MD_CTX_new());
-  const bool good = digest && EVP_DigestVerifyInit(digest.get(), nullptr, EVP_sha256(), nullptr, key.get()) == 1 &&
-                    EVP_DigestVerify(digest.get(), reinterpret_cast<const unsigned char*>(token.signature.data()), token.signature.size(),
-                                     reinterpret_cast<const unsigned char*>(token.signed_text.data()), token.signed_text.size()) == 1;
+  const bool good =
+      digest &&
+      EVP_DigestVerifyInit(digest.get(), nullptr, EVP_sha256(), nullptr, key.get()) == 1 &&
+      EVP_DigestVerify(digest.get(), reinterpret_cast<const unsigned char*>(token.signature.data()),
+                       token.signature.size(),
+                       reinterpret_cast<const unsigned char*>(token.signed_text.data()),
+                       token.signed_text.size()) == 1;
   if (!good) throw token_error(LtiError::signature, msg("does not bear the platform's signature"));
 }
 

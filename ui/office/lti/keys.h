@@ -1,5 +1,6 @@
-// Tokens of learning platforms: JSON Web Signatures (RFC 7515) by RS256 and by nothing else, and the keys behind them (RFC 7517). No header of a
-// token chooses how it is checked: another algorithm, a key that it brings or an address of one is refused or passed over.
+// Tokens of learning platforms: JSON Web Signatures (RFC 7515) by RS256 and by nothing else, and
+// the keys behind them (RFC 7517). No header of a token chooses how it is checked: another
+// algorithm, a key that it brings or an address of one is refused or passed over.
 #pragma once
 
 #include <cstdint>
@@ -33,11 +34,13 @@ struct ReadToken {
   nlohmann::json claims;
   std::string signed_text, signature;
 };
-/// Throws Error when it is no JWS of three parts, its algorithm is not RS256, it names no key or something critical, or a name stands twice in it.
+/// Throws Error when it is no JWS of three parts, its algorithm is not RS256, it names no key or
+/// something critical, or a name stands twice in it.
 [[nodiscard]] ReadToken read_token(const std::string& token);
 /// Whether `keys`, a key set (JWK), has a key of that name.
 [[nodiscard]] bool has_key(const nlohmann::json& keys, const std::string& kid);
-/// Throws Error when no RSA key of at least 2048 bits in `keys` has the token's `kid`, two have, or the signature is not by it.
+/// Throws Error when no RSA key of at least 2048 bits in `keys` has the token's `kid`, two have, or
+/// the signature is not by it.
 void require_signed(const ReadToken& token, const nlohmann::json& keys);
 
 }  // namespace cavum::office

@@ -23,11 +23,17 @@ constexpr double k_colours_end_mm = 0.5, k_wanted_px = 560;
 struct Colour {
   double r, g, b;
 };
-constexpr Colour k_left{0.0, 0.447, 0.698}, k_planned{0.96, 0.96, 0.94}, k_beyond{0.835, 0.369, 0.0}, k_tooth{0.80, 0.79, 0.76},
-    k_cut_through{0.15, 0.15, 0.15}, k_neighbour{0.70, 0.77, 0.86}, k_gum_colour{0.91, 0.66, 0.68}, k_cut_beside{0.60, 0.10, 0.45};
+constexpr Colour k_left{0.0, 0.447, 0.698}, k_planned{0.96, 0.96, 0.94},
+    k_beyond{0.835, 0.369, 0.0}, k_tooth{0.80, 0.79, 0.76}, k_cut_through{0.15, 0.15, 0.15},
+    k_neighbour{0.70, 0.77, 0.86}, k_gum_colour{0.91, 0.66, 0.68}, k_cut_adjacent{0.60, 0.10, 0.45};
 
-Colour mix(Colour a, Colour b, double share) { return {a.r + (b.r - a.r) * share, a.g + (b.g - a.g) * share, a.b + (b.b - a.b) * share}; }
-Colour of_deviation(double mm) { return mix(k_planned, mm < 0 ? k_left : k_beyond, std::min(1.0, std::fabs(mm) / k_colours_end_mm)); }
+Colour mix(Colour a, Colour b, double share) {
+  return {a.r + (b.r - a.r) * share, a.g + (b.g - a.g) * share, a.b + (b.b - a.b) * share};
+}
+Colour of_deviation(double mm) {
+  return mix(k_planned, mm < 0 ? k_left : k_beyond,
+             std::min(1.0, std::fabs(mm) / k_colours_end_mm));
+}
 std::string hex(Colour c) {
   const auto byte = [](double v) { return std::lround(v * 255); };
   return fmt::format("#{:02x}{:02x}{:02x}", byte(c.r), byte(c.g), byte(c.b));
@@ -41,19 +47,22 @@ std::vector<int> tops(const Octree& tree) {
     if (!tree.is_solid(t)) return;
     for (int y = at.y; y < std::min(n.y, at.y + edge); ++y)
       for (int x = at.x; x < std::min(n.x, at.x + edge); ++x) {
-        int& z = top[static_cast<std::size_t>(y) * static_cast<std::size_t>(n.x) + static_cast<std::size_t>(x)];
+        int& z = top[static_cast<std::size_t>(y) * static_cast<std::size_t>(n.x) +
+                     static_cast<std::size_t>(x)];
         z = std::max(z, at.z + edge - 1);
       }
   });
   return top;
 }
 
-/// Where hard tissue was cut through into a hollow: how far beyond the target that went, mm, at least 0.
+/// Where hard tissue was cut through into a hollow: how far beyond the target that went, mm, at
+/// least 0.
 double through_mm(const grading::GradeInput& input, int x, int y, int top, int was) {
   double beyond = 0;
   for (int z = top + 1; z <= was; ++z) {
     const Octree& before = input.before.octree;
-    if (before.is_solid(before.tissue({x, y, z}))) beyond = std::max(beyond, input.zones.distance_mm(IVec3{x, y, z}));
+    if (before.is_solid(before.tissue({x, y, z})))
+      beyond = std::max(beyond, input.zones.distance_mm(IVec3{x, y, z}));
   }
   return beyond;
 }
@@ -66,7 +75,8 @@ Bytes png_of(cairo_surface_t* surface) {
     return CAIRO_STATUS_SUCCESS;
   };
   if (cairo_surface_write_to_png_stream(surface, write, &bytes) != CAIRO_STATUS_SUCCESS)
-    throw Error(msg("report"), msg("the picture of the tooth could not be packed"), msg("free some memory"));
+    throw Error(msg("report"), msg("the picture of the tooth could not be packed"),
+                msg("free some memory"));
   return bytes;
 }
 
@@ -77,8 +87,11 @@ std::vector<int> planned_tops(const grading::GradeInput& input, const std::vecto
   const Octree& before = input.before.octree;
   for (int y = 0; y < n.y; ++y)
     for (int x = 0; x < n.x; ++x) {
-      int& z = top[static_cast<std::size_t>(y) * static_cast<std::size_t>(n.x) + static_cast<std::size_t>(x)];
-      while (z >= 0 && (!before.is_solid(before.tissue({x, y, z})) || input.zones.zone({x, y, z}) == scenarios::Zone::target)) --z;
+      int& z = top[static_cast<std::size_t>(y) * static_cast<std::size_t>(n.x) +
+                   static_cast<std::size_t>(x)];
+      while (z >= 0 && (!before.is_solid(before.tissue({x, y, z})) ||
+                        input.zones.zone({x, y, z}) == scenarios::Zone::target))
+        --z;
     }
   return top;
 }
@@ -93,31 +106,38 @@ struct Columns {
     if (graded.beside == nullptr) return;
     all_was = tops(graded.seen_before().octree);
     all_is = as_planned ? all_was : tops(graded.seen_after());
-    cut_beside.assign(was.size(), false);
+    cut_adjacent.assign(was.size(), false);
     if (as_planned) return;
     for (const auto& r : graded.all_removed())
-      if (graded.beside->apart.beside[r.leaf.tissue]) cut_beside[index(r.leaf.x, r.leaf.y)] = true;
+      if (graded.beside->apart.beside[r.leaf.tissue])
+        cut_adjacent[index(r.leaf.x, r.leaf.y)] = true;
   }
   const grading::GradeInput& input;
   IVec3 size;
   std::vector<int> was, is;
-  std::vector<int> all_was, all_is;  ///< with what stands beside the tooth; empty where nothing does
-  std::vector<bool> cut_beside;      ///< some of that went, anywhere in the column
+  std::vector<int> all_was,
+      all_is;                      ///< with what stands beside the tooth; empty where nothing does
+  std::vector<bool> cut_adjacent;  ///< some of that went, anywhere in the column
   /// Columns beyond the tooth's are those at its edge.
   [[nodiscard]] std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(std::clamp(y, 0, size.y - 1)) * static_cast<std::size_t>(size.x) +
+    return static_cast<std::size_t>(std::clamp(y, 0, size.y - 1)) *
+               static_cast<std::size_t>(size.x) +
            static_cast<std::size_t>(std::clamp(x, 0, size.x - 1));
   }
 };
 
-/// Of a column that still has a top: by its distance from the target where it was cut or should have been.
+/// Of a column that still has a top: by its distance from the target where it was cut or should
+/// have been.
 Colour colour_of_top(const Columns& columns, int x, int y) {
   const Octree& before = columns.input.before.octree;
   const scenarios::ZoneMap& zones = columns.input.zones;
   const int top = columns.is[columns.index(x, y)], was = columns.was[columns.index(x, y)];
   // the natural wall of a hollow is no cut
-  const bool cut = before.is_solid(before.tissue({x, y, top + 1})), left = zones.zone({x, y, top}) == scenarios::Zone::target;
-  if (cut || left) return of_deviation(zones.distance_mm(before.centre_mm({x, y, top}) + Vec3{0, 0, 0.5 * before.leaf_mm()}));
+  const bool cut = before.is_solid(before.tissue({x, y, top + 1})),
+             left = zones.zone({x, y, top}) == scenarios::Zone::target;
+  if (cut || left)
+    return of_deviation(
+        zones.distance_mm(before.centre_mm({x, y, top}) + Vec3{0, 0, 0.5 * before.leaf_mm()}));
   return top < was ? of_deviation(through_mm(columns.input, x, y, top, was)) : k_tooth;
 }
 
@@ -133,12 +153,15 @@ Colour lit(Colour c, const Columns& columns, const std::vector<int>& tops, int x
 }
 
 /// Where what stands beside the tooth is seen, or some of it was cut.
-std::optional<Colour> colour_beside(const Columns& columns, int x, int y) {
+std::optional<Colour> adjacent_colour(const Columns& columns, int x, int y) {
   if (columns.all_was.empty()) return std::nullopt;
   const std::size_t i = columns.index(x, y);
   const auto& apart = columns.input.beside->apart;
-  const std::uint8_t top = columns.all_was[i] < 0 ? std::uint8_t{k_air} : columns.input.seen_before().octree.tissue({x, y, columns.all_was[i]});
-  if (columns.cut_beside[i]) return k_cut_beside;
+  const std::uint8_t top =
+      columns.all_was[i] < 0
+          ? std::uint8_t{k_air}
+          : columns.input.seen_before().octree.tissue({x, y, columns.all_was[i]});
+  if (columns.cut_adjacent[i]) return k_cut_adjacent;
   if (!apart.beside[top]) return std::nullopt;
   return lit(apart.of_gum[top] ? k_gum_colour : k_neighbour, columns, columns.all_is, x, y);
 }
@@ -146,9 +169,12 @@ std::optional<Colour> colour_beside(const Columns& columns, int x, int y) {
 /// ARGB; 0 where there was no tooth.
 std::uint32_t pixel_at(const Columns& columns, int x, int y) {
   const std::size_t i = columns.index(x, y);
-  const auto beside = colour_beside(columns, x, y);
+  const auto beside = adjacent_colour(columns, x, y);
   if (!beside && columns.was[i] < 0) return 0;
-  const Colour c = beside ? *beside : columns.is[i] < 0 ? k_cut_through : lit(colour_of_top(columns, x, y), columns, columns.is, x, y);
+  const Colour c = beside ? *beside
+                   : columns.is[i] < 0
+                       ? k_cut_through
+                       : lit(colour_of_top(columns, x, y), columns, columns.is, x, y);
   const auto byte = [](double v) { return static_cast<std::uint32_t>(std::lround(v * 255)); };
   return 0xff000000u | byte(c.r) << 16 | byte(c.g) << 8 | byte(c.b);
 }
@@ -156,24 +182,31 @@ std::uint32_t pixel_at(const Columns& columns, int x, int y) {
 /// A pixel for each column, as PNG.
 Bytes columns_png(const Columns& columns) {
   const IVec3 n = columns.size;
-  const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> image(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, n.x, n.y),
-                                                                           cairo_surface_destroy);
+  const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> image(
+      cairo_image_surface_create(CAIRO_FORMAT_ARGB32, n.x, n.y), cairo_surface_destroy);
   cairo_surface_flush(image.get());
   unsigned char* rows = cairo_image_surface_get_data(image.get());
-  if (rows == nullptr) throw Error(msg("report"), msg("there is no room for a picture of the tooth"), msg("free some memory"));
+  if (rows == nullptr)
+    throw Error(msg("report"), msg("there is no room for a picture of the tooth"),
+                msg("free some memory"));
   const int stride = cairo_image_surface_get_stride(image.get());
   for (int y = 0; y < n.y; ++y)
     for (int x = 0; x < n.x; ++x) {
       const std::uint32_t pixel = pixel_at(columns, x, y);
-      std::memcpy(rows + static_cast<std::ptrdiff_t>(n.y - 1 - y) * stride + 4 * static_cast<std::ptrdiff_t>(x), &pixel, 4);
+      std::memcpy(rows + static_cast<std::ptrdiff_t>(n.y - 1 - y) * stride +
+                      4 * static_cast<std::ptrdiff_t>(x),
+                  &pixel, 4);
     }
   cairo_surface_mark_dirty(image.get());
   return png_of(image.get());
 }
 
-constexpr double k_top_px = 24, k_bar_px = 18, k_bar_height_px = 200;  // the key stands beside the picture
+constexpr double k_top_px = 24, k_bar_px = 18,
+                 k_bar_height_px = 200;  // the key stands beside the picture
 
-std::string text_at(double x, double y, const std::string& words, const char* anchor = "start") { return svg_text(x, y, words, 16, anchor); }
+std::string text_at(double x, double y, const std::string& words, const char* anchor = "start") {
+  return svg_text(x, y, words, 16, anchor);
+}
 
 std::string beyond_words() { return tr("{} beyond", as_mm(k_colours_end_mm, 1)); }
 std::string left_words() { return tr("{} left", as_mm(k_colours_end_mm, 1)); }
@@ -182,7 +215,8 @@ std::string left_words() { return tr("{} left", as_mm(k_colours_end_mm, 1)); }
 double key_width_px() {
   constexpr double k_min_px = 190, k_letter_px = 10;  // of letters of 16 px, wide ones
   std::size_t letters = 0;
-  for (const std::string& words : {beyond_words(), left_words(), tr("as planned")}) letters = std::max(letters, words.size());
+  for (const std::string& words : {beyond_words(), left_words(), tr("as planned")})
+    letters = std::max(letters, words.size());
   return std::max(k_min_px, 20 + k_bar_px + 8 + k_letter_px * static_cast<double>(letters));
 }
 
@@ -193,12 +227,15 @@ std::string key_svg(double left, double top, double mm_px) {
   constexpr double k_step_px = k_bar_height_px / k_steps;
   std::string svg;
   for (int i = 0; i < k_steps; ++i)
-    svg += svg_rect(left, top + i * k_step_px, k_bar_px, k_step_px + 0.5, hex(of_deviation(k_colours_end_mm * (1 - 2.0 * (i + 0.5) / k_steps))));
+    svg += svg_rect(left, top + i * k_step_px, k_bar_px, k_step_px + 0.5,
+                    hex(of_deviation(k_colours_end_mm * (1 - 2.0 * (i + 0.5) / k_steps))));
   svg += svg_rect(left, top, k_bar_px, k_bar_height_px, "none", "stroke='#666666'");
-  svg += text_at(words, top + 14, beyond_words()) + text_at(words, top + k_bar_height_px / 2 + 5, tr("as planned")) +
+  svg += text_at(words, top + 14, beyond_words()) +
+         text_at(words, top + k_bar_height_px / 2 + 5, tr("as planned")) +
          text_at(words, top + k_bar_height_px - 4, left_words());
   const double below = top + k_bar_height_px + 34;
-  return svg + svg_line(left, below, left + mm_px, below, "#222222", 2) + text_at(left + mm_px + 8, below + 6, tr("{}", as_mm(1, 0)));
+  return svg + svg_line(left, below, left + mm_px, below, "#222222", 2) +
+         text_at(left + mm_px + 8, below + 6, tr("{}", as_mm(1, 0)));
 }
 
 constexpr double k_line_px = 26;  // of the second part of the key
@@ -213,32 +250,39 @@ std::vector<std::string> key_beside(const grading::GradeInput& input, double lef
         if (set[t] && counts[t] > 0) return true;
       return false;
     };
-    if (any(input.beside->apart.of_neighbours)) entries.emplace_back(k_neighbour, msg("neighbouring tooth"));
+    if (any(input.beside->apart.of_neighbours))
+      entries.emplace_back(k_neighbour, msg("neighbouring tooth"));
     if (any(input.beside->apart.of_gum)) entries.emplace_back(k_gum_colour, msg("gum"));
-    if (!entries.empty()) entries.emplace_back(k_cut_beside, msg("cut of these"));
+    if (!entries.empty()) entries.emplace_back(k_cut_adjacent, msg("cut of these"));
   }
   std::vector<std::string> lines;
   for (const auto& [colour, words] : entries) {
     const double y = top + static_cast<double>(lines.size()) * k_line_px;
-    lines.push_back(svg_rect(left, y, k_bar_px, 16, hex(colour), "stroke='#666666'") + text_at(left + k_bar_px + 8, y + 13, tr(words)));
+    lines.push_back(svg_rect(left, y, k_bar_px, 16, hex(colour), "stroke='#666666'") +
+                    text_at(left + k_bar_px + 8, y + 13, tr(words)));
   }
   return lines;
 }
 
 /// With the key to its colours, or its place left empty.
-std::string picture_svg(const Columns& columns, bool with_key, bool& beside_shown) {
+std::string picture_svg(const Columns& columns, bool with_key, bool& adjacent_shown) {
   const grading::GradeInput& input = columns.input;
   const IVec3 n = columns.size;
   const double px = k_wanted_px / std::max(n.x, n.y), width = n.x * px, height = n.y * px;
   constexpr double k_below_bar_px = k_bar_height_px + 60;
-  const auto beside = with_key ? key_beside(input, width + 20, k_top_px + 10 + k_below_bar_px) : std::vector<std::string>{};
-  beside_shown = !beside.empty();
+  const auto beside = with_key ? key_beside(input, width + 20, k_top_px + 10 + k_below_bar_px)
+                               : std::vector<std::string>{};
+  adjacent_shown = !beside.empty();
   const double all_width = width + key_width_px(),
-               key_height = k_below_bar_px + (beside.empty() ? 0.0 : 10 + k_line_px * static_cast<double>(beside.size())),
+               key_height =
+                   k_below_bar_px +
+                   (beside.empty() ? 0.0 : 10 + k_line_px * static_cast<double>(beside.size())),
                all_height = k_top_px + std::max(height, key_height);
-  std::string svg = k_svg_white + text_at(4, 17, tr("↑ buccal")) + text_at(width - 4, 17, tr("mesial →"), "end");
-  svg += fmt::format("<image x='0' y='{}' width='{}' height='{}' preserveAspectRatio='none' href='data:image/png;base64,{}'/>\n", fixed(k_top_px, 0),
-                     fixed(width, 1), fixed(height, 1), to_base64(columns_png(columns)));
+  std::string svg =
+      k_svg_white + text_at(4, 17, tr("↑ buccal")) + text_at(width - 4, 17, tr("mesial →"), "end");
+  svg += fmt::format(
+      "<image x='0' y='{}' width='{}' height='{}' preserveAspectRatio='none' href='data:image/png;base64,{}'/>\n",
+      fixed(k_top_px, 0), fixed(width, 1), fixed(height, 1), to_base64(columns_png(columns)));
   if (with_key) svg += key_svg(width + 20, k_top_px + 10, px / input.before.octree.leaf_mm());
   for (const auto& line : beside) svg += line;
   return svg_root(all_width, all_height, svg, "font-family='sans-serif' fill='#222222'");
@@ -249,15 +293,18 @@ std::string picture_svg(const Columns& columns, bool with_key, bool& beside_show
 Picture picture_from_above(const grading::GradeInput& input) {
   bool beside = false;
   std::string svg = picture_svg(Columns(input, false), true, beside);
-  return {std::move(svg),
-          beside ? tr("From above: what was cut, coloured by the distance of its surface from the target's walls and floor; grey was not cut; what "
-                      "stands beside it, and what was cut of that, in colours of their own")
-                 : tr("From above: what was cut, coloured by the distance of its surface from the target's walls and floor; grey was not cut")};
+  return {
+      std::move(svg),
+      beside
+          ? tr("From above: what was cut, coloured by the distance of its surface from the target's walls and floor; grey was not cut; what "
+               "stands beside it, and what was cut of that, in colours of their own")
+          : tr("From above: what was cut, coloured by the distance of its surface from the target's walls and floor; grey was not cut")};
 }
 
 Picture picture_as_planned(const grading::GradeInput& input) {
   bool beside = false;
-  return {picture_svg(Columns(input, true), false, beside), tr("From above, as planned: the target taken out and nothing else")};
+  return {picture_svg(Columns(input, true), false, beside),
+          tr("From above, as planned: the target taken out and nothing else")};
 }
 
 }  // namespace cavum::report

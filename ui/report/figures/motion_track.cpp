@@ -30,7 +30,8 @@ MotionTrack make_motion_track(const grading::GradeInput& input, std::size_t most
     const Pose pose = input.inputs[first].pose();
     const Vec3 tip = pose.tip_mm, axis = rotation(pose.rotation) * Vec3{0, 0, 1};
     double force = 0;
-    for (std::size_t i = first; i < end; ++i) force = std::max(force, grading::force_n(input.records[i]));
+    for (std::size_t i = first; i < end; ++i)
+      force = std::max(force, grading::force_n(input.records[i]));
     t.x_um.push_back(whole<std::int16_t>(tip.x * 1e3));
     t.y_um.push_back(whole<std::int16_t>(tip.y * 1e3));
     t.z_um.push_back(whole<std::int16_t>(tip.z * 1e3));
@@ -41,8 +42,9 @@ MotionTrack make_motion_track(const grading::GradeInput& input, std::size_t most
     t.depth_um.push_back(whole<std::int16_t>(input.zones.below_opening_mm(tip) * 1e3));
     t.rpm10.push_back(whole<std::uint16_t>(input.records[first].rpm * 0.1));
     const std::size_t next = std::min(end, ticks - 1);
-    const double way_mm = length(input.inputs[next].tip_mm() - tip), time_s = static_cast<double>(next - first) * k_tick_s;
-    t.tip_50um_s.push_back(whole<std::uint16_t>(time_s > 0 ? way_mm / time_s * 20 : 0));
+    const double moved_mm = length(input.inputs[next].tip_mm() - tip),
+                 time_s = static_cast<double>(next - first) * k_tick_s;
+    t.tip_50um_s.push_back(whole<std::uint16_t>(time_s > 0 ? moved_mm / time_s * 20 : 0));
   }
   return t;
 }

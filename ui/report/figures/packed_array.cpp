@@ -26,17 +26,28 @@ nlohmann::json pack(std::span<const T> values, const char* type, bool delta) {
   }
   const Bytes bytes(raw.bytes().begin(), raw.bytes().end());
   Bytes packed(ZSTD_compressBound(bytes.size()));
-  const std::size_t n = ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), k_level);
-  if (ZSTD_isError(n) != 0) throw Error(msg("report"), msg("zstd refuses to pack {} bytes", bytes.size()), msg("free some memory"));
+  const std::size_t n =
+      ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), k_level);
+  if (ZSTD_isError(n) != 0)
+    throw Error(msg("report"), msg("zstd refuses to pack {} bytes", bytes.size()),
+                msg("free some memory"));
   packed.resize(n);
   return {{"type", type}, {"n", values.size()}, {"delta", delta}, {"zstd", to_base64(packed)}};
 }
 
 }  // namespace
 
-nlohmann::json packed_array(std::span<const std::uint8_t> values, bool delta) { return pack(values, "u8", delta); }
-nlohmann::json packed_array(std::span<const std::int8_t> values, bool delta) { return pack(values, "i8", delta); }
-nlohmann::json packed_array(std::span<const std::uint16_t> values, bool delta) { return pack(values, "u16", delta); }
-nlohmann::json packed_array(std::span<const std::int16_t> values, bool delta) { return pack(values, "i16", delta); }
+nlohmann::json packed_array(std::span<const std::uint8_t> values, bool delta) {
+  return pack(values, "u8", delta);
+}
+nlohmann::json packed_array(std::span<const std::int8_t> values, bool delta) {
+  return pack(values, "i8", delta);
+}
+nlohmann::json packed_array(std::span<const std::uint16_t> values, bool delta) {
+  return pack(values, "u16", delta);
+}
+nlohmann::json packed_array(std::span<const std::int16_t> values, bool delta) {
+  return pack(values, "i16", delta);
+}
 
 }  // namespace cavum::report

@@ -16,7 +16,8 @@ constexpr double k_wanted_cell_mm = 0.1, k_around_target_mm = 1.0;
 constexpr int k_margin_cells = 2;
 constexpr std::size_t k_max_counts = 24'000'000;  // cells times tissues: 48 MB while counting
 
-/// Cells from a multiple of the edge, so that the same tooth gives the same cells wherever its tissue begins.
+/// Cells from a multiple of the edge, so that the same tooth gives the same cells wherever its
+/// tissue begins.
 int floor_div(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 
 /// What a tooth is made of, and the box of leaves around it.
@@ -35,7 +36,8 @@ ToothContent content_of(const Tooth& tooth) {
     content.column[t] = static_cast<int>(content.ids.size());
     content.ids.push_back(t);
   });
-  if (content.ids.empty()) throw Error(tooth.name, msg("this tooth holds no tissue"), msg("use another one"));
+  if (content.ids.empty())
+    throw Error(tooth.name, msg("this tooth holds no tissue"), msg("use another one"));
   return content;
 }
 
@@ -44,10 +46,13 @@ ToothGrid empty_grid(const Octree& tree, const ToothContent& content, std::size_
   const auto& [low, high] = content.box;
   ToothGrid g;
   IVec3 from;
-  for (g.edge_leaves = std::max(1, static_cast<int>(k_wanted_cell_mm / tree.leaf_mm() + 0.5));; ++g.edge_leaves) {
+  for (g.edge_leaves = std::max(1, static_cast<int>(k_wanted_cell_mm / tree.leaf_mm() + 0.5));;
+       ++g.edge_leaves) {
     const int e = g.edge_leaves;
-    from = {floor_div(low.x, e) - k_margin_cells, floor_div(low.y, e) - k_margin_cells, floor_div(low.z, e) - k_margin_cells};
-    const IVec3 to{floor_div(high.x - 1, e) + 1 + k_margin_cells, floor_div(high.y - 1, e) + 1 + k_margin_cells,
+    from = {floor_div(low.x, e) - k_margin_cells, floor_div(low.y, e) - k_margin_cells,
+            floor_div(low.z, e) - k_margin_cells};
+    const IVec3 to{floor_div(high.x - 1, e) + 1 + k_margin_cells,
+                   floor_div(high.y - 1, e) + 1 + k_margin_cells,
                    floor_div(high.z - 1, e) + 1 + k_margin_cells};
     g.size = to - from;
     if (cells_of(g.size) <= most_cells) break;
@@ -55,19 +60,25 @@ ToothGrid empty_grid(const Octree& tree, const ToothContent& content, std::size_
   const int e = g.edge_leaves;
   g.cell_mm = e * tree.leaf_mm();
   g.low_leaf = {from.x * e, from.y * e, from.z * e};
-  g.origin_mm = tree.origin_mm() + Vec3{g.low_leaf.x + 0.5 * e, g.low_leaf.y + 0.5 * e, g.low_leaf.z + 0.5 * e} * tree.leaf_mm();
+  g.origin_mm =
+      tree.origin_mm() +
+      Vec3{g.low_leaf.x + 0.5 * e, g.low_leaf.y + 0.5 * e, g.low_leaf.z + 0.5 * e} * tree.leaf_mm();
   return g;
 }
 
-/// Leaves of each tissue in each cell: for a cell one number after the other, in the order of `content.ids`.
-std::vector<std::uint16_t> count_tissues(const Octree& tree, const ToothGrid& g, const ToothContent& content) {
+/// Leaves of each tissue in each cell: for a cell one number after the other, in the order of
+/// `content.ids`.
+std::vector<std::uint16_t> count_tissues(const Octree& tree, const ToothGrid& g,
+                                         const ToothContent& content) {
   const int e = g.edge_leaves;
   const std::size_t kinds = content.ids.size();
   std::vector<std::uint16_t> count(cells_of(g.size) * kinds, 0);
   tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
     const auto kind = static_cast<std::size_t>(content.column[t]);
     const IVec3 a = at - g.low_leaf, b = a + IVec3{edge, edge, edge};
-    const auto shared = [e](int cell, int from_leaf, int to_leaf) { return std::min(to_leaf, (cell + 1) * e) - std::max(from_leaf, cell * e); };
+    const auto shared = [e](int cell, int from_leaf, int to_leaf) {
+      return std::min(to_leaf, (cell + 1) * e) - std::max(from_leaf, cell * e);
+    };
     for (int z = a.z / e; z * e < b.z; ++z)
       for (int y = a.y / e; y * e < b.y; ++y) {
         const int area = shared(z, a.z, b.z) * shared(y, a.y, b.y);
@@ -81,7 +92,8 @@ std::vector<std::uint16_t> count_tissues(const Octree& tree, const ToothGrid& g,
 }
 
 /// Solid leaves of each cell, and the tissue that fills most of it.
-void fill_cells(ToothGrid& g, const Octree& tree, const std::vector<std::uint8_t>& ids, const std::vector<std::uint16_t>& count) {
+void fill_cells(ToothGrid& g, const Octree& tree, const std::vector<std::uint8_t>& ids,
+                const std::vector<std::uint16_t>& count) {
   const std::size_t kinds = ids.size();
   g.solid.resize(cells_of(g.size));
   g.tissue.resize(cells_of(g.size));
@@ -100,7 +112,9 @@ void fill_cells(ToothGrid& g, const Octree& tree, const std::vector<std::uint8_t
     }
     const unsigned air = static_cast<unsigned>(g.cell_leaves()) - solid - others;
     g.solid[i] = static_cast<std::uint16_t>(solid);
-    g.tissue[i] = solid > 0 ? of_solid : most_other > air ? of_other : static_cast<std::uint8_t>(k_air);
+    g.tissue[i] = solid > 0          ? of_solid
+                  : most_other > air ? of_other
+                                     : static_cast<std::uint8_t>(k_air);
   }
 }
 
@@ -108,7 +122,8 @@ void fill_cells(ToothGrid& g, const Octree& tree, const std::vector<std::uint8_t
 
 ToothGrid make_tooth_grid(const Tooth& tooth, std::size_t most_cells) {
   const ToothContent content = content_of(tooth);
-  ToothGrid g = empty_grid(tooth.octree, content, std::min(most_cells, k_max_counts / content.ids.size()));
+  ToothGrid g =
+      empty_grid(tooth.octree, content, std::min(most_cells, k_max_counts / content.ids.size()));
   fill_cells(g, tooth.octree, content.ids, count_tissues(tooth.octree, g, content));
   return g;
 }
@@ -117,10 +132,12 @@ ChangedCells make_changed_cells(const ToothGrid& g, const grading::GradeInput& i
   const Octree& tree = input.seen_before().octree;
   const auto cell_at = [&](Vec3 p) {
     const Vec3 c = (p - g.origin_mm) / g.cell_mm;
-    return IVec3{static_cast<int>(std::lround(c.x)), static_cast<int>(std::lround(c.y)), static_cast<int>(std::lround(c.z))};
+    return IVec3{static_cast<int>(std::lround(c.x)), static_cast<int>(std::lround(c.y)),
+                 static_cast<int>(std::lround(c.z))};
   };
   const Vec3 around{k_around_target_mm, k_around_target_mm, k_around_target_mm};
-  IVec3 low = cell_at(input.zones.target_low_mm() - around), high = cell_at(input.zones.target_high_mm() + around) + IVec3{1, 1, 1};
+  IVec3 low = cell_at(input.zones.target_low_mm() - around),
+        high = cell_at(input.zones.target_high_mm() + around) + IVec3{1, 1, 1};
   for (const auto& r : input.all_removed()) {
     const IVec3 c = g.cell_of(r.leaf.leaf());
     low = min(low, c);
@@ -149,7 +166,8 @@ ChangedCells make_changed_cells(const ToothGrid& g, const grading::GradeInput& i
   grading::RemovedMap::Marks seen = map.marks();
   for (const auto& r : input.all_removed()) {
     const IVec3 leaf = r.leaf.leaf();
-    if (!tree.is_solid(r.leaf.tissue) || tree.tissue(leaf) == k_air || !seen.first_time(leaf)) continue;  // listed twice: the first time counts
+    if (!tree.is_solid(r.leaf.tissue) || tree.tissue(leaf) == k_air || !seen.first_time(leaf))
+      continue;  // listed twice: the first time counts
     const IVec3 c = g.cell_of(leaf) - box.low;
     const std::size_t at = cell_index(c, box.size);
     const double share = static_cast<double>(r.tick) / ticks * 65535.0;
@@ -163,7 +181,8 @@ ChangedCells make_changed_cells(const ToothGrid& g, const grading::GradeInput& i
 
 std::vector<std::uint8_t> shares_of(const std::vector<std::uint16_t>& solid, int cell_leaves) {
   std::vector<std::uint8_t> shares(solid.size());
-  for (std::size_t i = 0; i < solid.size(); ++i) shares[i] = static_cast<std::uint8_t>((solid[i] * 510 + cell_leaves) / (2 * cell_leaves));
+  for (std::size_t i = 0; i < solid.size(); ++i)
+    shares[i] = static_cast<std::uint8_t>((solid[i] * 510 + cell_leaves) / (2 * cell_leaves));
   return shares;
 }
 

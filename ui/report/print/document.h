@@ -1,5 +1,6 @@
-// A report before it is printed: headings, paragraphs, tables and pictures in their order, in the reader's language. It is made once
-// (report_document.h) and printed as HTML or as PDF, so that both say the same words and figures.
+// A report before it is printed: headings, paragraphs, tables and pictures in their order, in the
+// reader's language. It is made once (report_document.h) and printed as HTML or as PDF, so that
+// both say the same words and figures.
 #pragma once
 
 #include <optional>
@@ -27,7 +28,8 @@ struct Paragraph {
   std::string text;
   std::string lead;  ///< bold, before the text
   enum class Kind { normal, small, note } kind = Kind::normal;
-  std::string id = {};  ///< which it is, as programs know it (`data-kind` of the page); may be empty
+  std::string id =
+      {};  ///< which it is, as programs know it (`data-kind` of the page); may be empty
 };
 
 struct Bullets {
@@ -52,9 +54,10 @@ struct TableRow {
 struct ReportTable {
   std::vector<TableColumn> columns;
   std::vector<TableRow> rows;
-  std::string name;         ///< for those who cannot see it
-  double least_row_pt = 0;  ///< height of each row below the heads, where somebody writes into it; 0: its text's
-  std::string id = {};      ///< as of a paragraph
+  std::string name;  ///< for those who cannot see it
+  double least_row_pt =
+      0;  ///< height of each row below the heads, where somebody writes into it; 0: its text's
+  std::string id = {};  ///< as of a paragraph
 };
 
 struct VerdictBox {
@@ -76,7 +79,8 @@ struct Pictures {
   bool sections = false;
 };
 
-/// What the page moves (`id`: tooth-3d or charts). On paper, and as long as the page cannot, the pictures stand there.
+/// What the page moves (`id`: tooth-3d or charts). On paper, and as long as the page cannot, the
+/// pictures stand there.
 struct LiveFigure {
   std::string id, title, fallback;
   std::vector<Picture> on_paper;
@@ -93,7 +97,8 @@ struct LessonList {
   std::vector<Item> items;
 };
 
-/// What follows, up to its end, is folded away on a screen until it is asked for. On paper it stands under its title.
+/// What follows, up to its end, is folded away on a screen until it is asked for. On paper it
+/// stands under its title.
 struct Fold {
   std::string title;
 };
@@ -104,7 +109,8 @@ struct CutLine {
   double together_pt = 0;
 };
 
-using Block = std::variant<Heading, Paragraph, Bullets, ReportTable, VerdictBox, Pictures, LiveFigure, LessonList, Fold, FoldEnd, CutLine>;
+using Block = std::variant<Heading, Paragraph, Bullets, ReportTable, VerdictBox, Pictures,
+                           LiveFigure, LessonList, Fold, FoldEnd, CutLine>;
 
 struct Document {
   std::string title;
@@ -112,7 +118,8 @@ struct Document {
   std::string language = "en";
   std::string created;  ///< of the session, UTC: "2026-11-21T09:00:00Z"
   std::vector<Block> blocks;
-  std::vector<std::string> footer;  ///< at the end of the page, on every page of paper the first line alone
+  std::vector<std::string>
+      footer;  ///< at the end of the page, on every page of paper the first line alone
 };
 
 }  // namespace cavum::report

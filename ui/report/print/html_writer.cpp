@@ -27,8 +27,11 @@ std::string script_text(const nlohmann::json& data) {
   return safe;
 }
 
-/// Text of an element: what as_is() isolated stands in <bdi>, so that a name that is written from right to left leaves its line in order.
-std::string text_html(const std::string& text) { return with_isolates(text, xml_text, "<bdi>", "</bdi>"); }
+/// Text of an element: what as_is() isolated stands in <bdi>, so that a name that is written from
+/// right to left leaves its line in order.
+std::string text_html(const std::string& text) {
+  return with_isolates(text, xml_text, "<bdi>", "</bdi>");
+}
 
 class Writer {
  public:
@@ -39,8 +42,11 @@ class Writer {
     h_ += fmt::format("<{}>{}</{}>\n", tag, text_html(b.text), tag);
   }
   void operator()(const Paragraph& b) {
-    const char* kind = b.kind == Paragraph::Kind::small ? " class='small'" : b.kind == Paragraph::Kind::note ? " class='note'" : "";
-    h_ += fmt::format("<p{}{}>{}{}</p>\n", kind, data_kind(b.id), b.lead.empty() ? "" : fmt::format("<b>{}</b>: ", text_html(b.lead)),
+    const char* kind = b.kind == Paragraph::Kind::small  ? " class='small'"
+                       : b.kind == Paragraph::Kind::note ? " class='note'"
+                                                         : "";
+    h_ += fmt::format("<p{}{}>{}{}</p>\n", kind, data_kind(b.id),
+                      b.lead.empty() ? "" : fmt::format("<b>{}</b>: ", text_html(b.lead)),
                       text_html(b.text));
   }
   void operator()(const Bullets& b) {
@@ -51,7 +57,9 @@ class Writer {
   void operator()(const ReportTable& b) {
     h_ += fmt::format("<table aria-label='{}'{}><thead><tr>", xml_text(b.name), data_kind(b.id));
     for (const auto& c : b.columns)  // a heading of nothing is no heading
-      h_ += c.title.empty() ? "<td></td>" : fmt::format("<th scope='col'{}>{}</th>", c.number ? " class='n'" : "", text_html(c.title));
+      h_ += c.title.empty() ? "<td></td>"
+                            : fmt::format("<th scope='col'{}>{}</th>", c.number ? " class='n'" : "",
+                                          text_html(c.title));
     h_ += "</tr></thead><tbody>\n";
     for (const auto& row : b.rows) {
       h_ += fmt::format("<tr{}{}>", row.lost ? " class='lost'" : "", data_kind(row.id));
@@ -61,27 +69,34 @@ class Writer {
     h_ += "</tbody></table>\n";
   }
   void operator()(const VerdictBox& b) {
-    h_ +=
-        fmt::format("<div class='verdict {}'><div><b>{}</b><br>{}", grading::verdict_name(b.verdict), text_html(b.verdict_words), text_html(b.score));
+    h_ += fmt::format("<div class='verdict {}'><div><b>{}</b><br>{}",
+                      grading::verdict_name(b.verdict), text_html(b.verdict_words),
+                      text_html(b.score));
     for (const auto& line : b.lines) h_ += fmt::format("<br><small>{}</small>", text_html(line));
     h_ += "</div><ul>";
     for (const auto& reason : b.reasons) h_ += fmt::format("<li>{}</li>", text_html(reason));
     h_ += "</ul></div>\n";
   }
   void operator()(const Pictures& b) {
-    h_ += b.sections ? "<div class='sections'>\n" : b.columns == 2 ? "<div class='pictures pair'>\n" : "<div class='pictures'>\n";
+    h_ += b.sections       ? "<div class='sections'>\n"
+          : b.columns == 2 ? "<div class='pictures pair'>\n"
+                           : "<div class='pictures'>\n";
     for (const auto& p : b.list)
-      h_ += p.title.empty() ? p.svg : fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", p.svg, text_html(p.title));
+      h_ += p.title.empty() ? p.svg
+                            : fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", p.svg,
+                                          text_html(p.title));
     h_ += "</div>\n";
   }
   void operator()(const LiveFigure& b) {
-    h_ += fmt::format("<section id='{}' aria-label='{}'><p class='fallback'>{}</p></section>\n", b.id, xml_text(b.title), text_html(b.fallback));
+    h_ += fmt::format("<section id='{}' aria-label='{}'><p class='fallback'>{}</p></section>\n",
+                      b.id, xml_text(b.title), text_html(b.fallback));
   }
 
   void operator()(const LessonList& b) {
     h_ += "<ol class='lessons'>\n";
     for (const auto& i : b.items) {
-      h_ += fmt::format("<li><div><div><p><b>{}</b> {}</p><p class='small'>{}", text_html(i.what), text_html(i.instead), text_html(i.weight));
+      h_ += fmt::format("<li><div><div><p><b>{}</b> {}</p><p class='small'>{}", text_html(i.what),
+                        text_html(i.instead), text_html(i.weight));
       if (i.jump) {
         h_ += " · ";
         button(*i.jump, tr("show it"));
@@ -92,15 +107,21 @@ class Writer {
     }
     h_ += "</ol>\n";
   }
-  void operator()(const Fold& b) { h_ += fmt::format("<details><summary>{}</summary>\n", text_html(b.title)); }
+  void operator()(const Fold& b) {
+    h_ += fmt::format("<details><summary>{}</summary>\n", text_html(b.title));
+  }
   void operator()(const FoldEnd&) { h_ += "</details>\n"; }
   void operator()(const CutLine&) { h_ += "<hr>\n"; }
 
  private:
-  static std::string data_kind(const std::string& id) { return id.empty() ? "" : fmt::format(" data-kind='{}'", xml_text(id)); }
+  static std::string data_kind(const std::string& id) {
+    return id.empty() ? "" : fmt::format(" data-kind='{}'", xml_text(id));
+  }
   void button(const Jump& to, const std::string& text) {
     h_ += fmt::format("<button class='jump' type='button' data-t='{}'", exact(to.t_s));
-    if (const auto& p = to.site_mm) h_ += fmt::format(" data-x='{}' data-y='{}' data-z='{}'", exact(p->x), exact(p->y), exact(p->z));
+    if (const auto& p = to.site_mm)
+      h_ += fmt::format(" data-x='{}' data-y='{}' data-z='{}'", exact(p->x), exact(p->y),
+                        exact(p->z));
     h_ += fmt::format(">{}</button>", text_html(text));
   }
   void cell(const TableCell& c, bool number) {

@@ -1,5 +1,6 @@
-// Prints a report's document as one HTML file that needs nothing else: words and tables read without script; the script only moves what is
-// there. A content security policy forbids it every use of the network.
+// Prints a report's document as one HTML file that needs nothing else: words and tables read
+// without script; the script only moves what is there. A content security policy forbids it every
+// use of the network.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -16,15 +16,20 @@ cavum_page_style_end:
 )");
 
 extern "C" {
-extern const char cavum_page_script_begin[], cavum_page_script_end[], cavum_page_style_begin[], cavum_page_style_end[];
+extern const char cavum_page_script_begin[], cavum_page_script_end[], cavum_page_style_begin[],
+    cavum_page_style_end[];
 }
 
 namespace cavum::report {
 
 std::string_view page_script() noexcept {
-  return {cavum_page_script_begin, static_cast<std::size_t>(cavum_page_script_end - cavum_page_script_begin)};
+  return {cavum_page_script_begin,
+          static_cast<std::size_t>(cavum_page_script_end - cavum_page_script_begin)};
 }
 
-std::string_view page_style() noexcept { return {cavum_page_style_begin, static_cast<std::size_t>(cavum_page_style_end - cavum_page_style_begin)}; }
+std::string_view page_style() noexcept {
+  return {cavum_page_style_begin,
+          static_cast<std::size_t>(cavum_page_style_end - cavum_page_style_begin)};
+}
 
 }  // namespace cavum::report

@@ -23,7 +23,8 @@ extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfi
 namespace cavum::report {
 namespace {
 
-constexpr double k_page_width = 595.28, k_page_height = 841.89, k_side = 42, k_top = 50, k_bottom = 50;
+constexpr double k_page_width = 595.28, k_page_height = 841.89, k_side = 42, k_top = 50,
+                 k_bottom = 50;
 constexpr double k_raster_px_per_pt = 200.0 / 72.0;
 constexpr char k_font[] = "DejaVu Sans";
 
@@ -41,27 +42,34 @@ cairo_status_t append(void* to, const unsigned char* data, unsigned n) {
 
 PdfPicture::PdfPicture(const std::string& svg) {
   GError* error = nullptr;
-  GInputStream* stream = g_memory_input_stream_new_from_data(svg.data(), static_cast<gssize>(svg.size()), nullptr);
-  RsvgHandle* handle = rsvg_handle_new_from_stream_sync(stream, nullptr, RSVG_HANDLE_FLAG_UNLIMITED, nullptr, &error);
+  GInputStream* stream =
+      g_memory_input_stream_new_from_data(svg.data(), static_cast<gssize>(svg.size()), nullptr);
+  RsvgHandle* handle = rsvg_handle_new_from_stream_sync(stream, nullptr, RSVG_HANDLE_FLAG_UNLIMITED,
+                                                        nullptr, &error);
   g_object_unref(stream);
   if (handle == nullptr) {
     const std::string why = error != nullptr ? error->message : "unknown";
     g_clear_error(&error);
-    throw Error(msg("report"), msg("a picture cannot be drawn: {}", one_line(why)), msg("write the report as .html"));
+    throw Error(msg("report"), msg("a picture cannot be drawn: {}", one_line(why)),
+                msg("write the report as .html"));
   }
   handle_ = std::shared_ptr<void>(handle, Unref{});
   rsvg_handle_set_dpi(handle, 96);
-  if (rsvg_handle_get_intrinsic_size_in_pixels(handle, &width_px_, &height_px_) == 0 || !(width_px_ > 0) || !(height_px_ > 0))
+  if (rsvg_handle_get_intrinsic_size_in_pixels(handle, &width_px_, &height_px_) == 0 ||
+      !(width_px_ > 0) || !(height_px_ > 0))
     throw Error(msg("report"), msg("a picture has no size"), msg("write the report as .html"));
 }
 
 void PdfPicture::draw(void* cairo, double x, double y, double width, double height) const {
   const RsvgRectangle place{x, y, width, height};
   GError* error = nullptr;
-  if (rsvg_handle_render_document(static_cast<RsvgHandle*>(handle_.get()), static_cast<cairo_t*>(cairo), &place, &error) != 0) return;
+  if (rsvg_handle_render_document(static_cast<RsvgHandle*>(handle_.get()),
+                                  static_cast<cairo_t*>(cairo), &place, &error) != 0)
+    return;
   const std::string why = error != nullptr ? error->message : "unknown";
   g_clear_error(&error);
-  throw Error(msg("report"), msg("a picture cannot be drawn: {}", one_line(why)), msg("write the report as .html"));
+  throw Error(msg("report"), msg("a picture cannot be drawn: {}", one_line(why)),
+              msg("write the report as .html"));
 }
 
 struct PdfSheet::State {
@@ -94,7 +102,9 @@ struct PdfSheet::State {
     if (t.lead.empty()) {
       pango_layout_set_text(l.get(), text.c_str(), -1);
     } else {
-      const std::string markup = fmt::format("<b>{}</b>: {}", xml_text(one_line(t.lead)), with_isolates(text, xml_text, k_isolate, k_isolate_end));
+      const std::string markup =
+          fmt::format("<b>{}</b>: {}", xml_text(one_line(t.lead)),
+                      with_isolates(text, xml_text, k_isolate, k_isolate_end));
       pango_layout_set_markup(l.get(), markup.c_str(), -1);
     }
     return l;
@@ -139,8 +149,10 @@ struct PdfSheet::State {
     cairo_move_to(cairo, k_side, foot - 4);
     cairo_line_to(cairo, k_page_width - k_side, foot - 4);
     cairo_stroke(cairo);
-    if (!document.footer.empty()) furniture(document.footer.front(), k_side, foot, width - 70, false);
-    furniture(pages > 0 ? tr("page {} of {}", page, pages) : tr("page {}", page), k_page_width - k_side - 66, foot, 66, true);
+    if (!document.footer.empty())
+      furniture(document.footer.front(), k_side, foot, width - 70, false);
+    furniture(pages > 0 ? tr("page {} of {}", page, pages) : tr("page {}", page),
+              k_page_width - k_side - 66, foot, 66, true);
   }
   void new_page() {
     cairo_show_page(cairo);
@@ -149,13 +161,17 @@ struct PdfSheet::State {
   [[nodiscard]] double left() const { return k_page_height - k_bottom - y; }
 };
 
-PdfSheet::PdfSheet(const Document& document, int pages, std::string& out) : s_(new State{.document = document, .pages = pages, .out = out}) {
+PdfSheet::PdfSheet(const Document& document, int pages, std::string& out)
+    : s_(new State{.document = document, .pages = pages, .out = out}) {
   State& s = *s_;
   s.surface = cairo_pdf_surface_create_for_stream(append, &s.out, k_page_width, k_page_height);
-  cairo_pdf_surface_set_metadata(s.surface, CAIRO_PDF_METADATA_TITLE, one_line(document.title).c_str());
-  cairo_pdf_surface_set_metadata(s.surface, CAIRO_PDF_METADATA_CREATOR, ("Cavum " + std::string(version())).c_str());
+  cairo_pdf_surface_set_metadata(s.surface, CAIRO_PDF_METADATA_TITLE,
+                                 one_line(document.title).c_str());
+  cairo_pdf_surface_set_metadata(s.surface, CAIRO_PDF_METADATA_CREATOR,
+                                 ("Cavum " + std::string(version())).c_str());
   // the exam's own date, so that the same report gives the same bytes
-  cairo_pdf_surface_set_metadata(s.surface, CAIRO_PDF_METADATA_CREATE_DATE, one_line(document.created).c_str());
+  cairo_pdf_surface_set_metadata(s.surface, CAIRO_PDF_METADATA_CREATE_DATE,
+                                 one_line(document.created).c_str());
   s.cairo = cairo_create(s.surface);
   s.fonts = pango_cairo_font_map_new();
   s.context = pango_font_map_create_context(s.fonts);
@@ -185,7 +201,9 @@ bool PdfSheet::need(double height_pt) {
 
 void PdfSheet::space(double height_pt) { s_->y += height_pt; }
 
-double PdfSheet::height(const PdfText& text, double width_pt) { return State::height_of(s_->layout(text, width_pt)); }
+double PdfSheet::height(const PdfText& text, double width_pt) {
+  return State::height_of(s_->layout(text, width_pt));
+}
 
 void PdfSheet::lines(const PdfText& text, double width_pt) {
   State& s = *s_;
@@ -201,7 +219,8 @@ void PdfSheet::lines(const PdfText& text, double width_pt) {
   }
   s.colour(text.colour);
   s.begin_tag(text.tag);
-  for (int i = 0; i < pango_layout_get_line_count(l.get()); ++i) {  // longer than a page: line by line
+  for (int i = 0; i < pango_layout_get_line_count(l.get());
+       ++i) {  // longer than a page: line by line
     PangoLayoutLine* line = pango_layout_get_line_readonly(l.get(), i);
     PangoRectangle box;
     pango_layout_line_get_extents(line, nullptr, &box);
@@ -238,14 +257,16 @@ void PdfSheet::fill(double x_pt, double width_pt, double height_pt, PdfColour co
   cairo_fill(s_->cairo);
 }
 
-void PdfSheet::frame(double x_pt, double width_pt, double height_pt, PdfColour colour, double line_pt) {
+void PdfSheet::frame(double x_pt, double width_pt, double height_pt, PdfColour colour,
+                     double line_pt) {
   s_->colour(colour);
   cairo_set_line_width(s_->cairo, line_pt);
   cairo_rectangle(s_->cairo, k_side + x_pt, s_->y, width_pt, height_pt);
   cairo_stroke(s_->cairo);
 }
 
-void PdfSheet::draw(const PdfPicture& picture, double x_pt, double y_pt, double width_pt, double height_pt, bool raster, const std::string& words) {
+void PdfSheet::draw(const PdfPicture& picture, double x_pt, double y_pt, double width_pt,
+                    double height_pt, bool raster, const std::string& words) {
   cairo_t* cairo = s_->cairo;
   s_->picture_words.push_back(one_line(words));
   s_->begin_tag("Figure");
@@ -257,7 +278,8 @@ void PdfSheet::draw(const PdfPicture& picture, double x_pt, double y_pt, double 
     s_->end_tag("Figure");
     return;
   }
-  const int columns = static_cast<int>(std::ceil(width_pt * k_raster_px_per_pt)), rows = static_cast<int>(std::ceil(height_pt * k_raster_px_per_pt));
+  const int columns = static_cast<int>(std::ceil(width_pt * k_raster_px_per_pt)),
+            rows = static_cast<int>(std::ceil(height_pt * k_raster_px_per_pt));
   cairo_surface_t* image = cairo_image_surface_create(CAIRO_FORMAT_RGB24, columns, rows);
   cairo_t* on_image = cairo_create(image);
   cairo_set_source_rgb(on_image, 1, 1, 1);
@@ -283,7 +305,9 @@ void PdfSheet::draw(const PdfPicture& picture, double x_pt, double y_pt, double 
 
 void PdfSheet::begin_tag(const char* tag) { s_->begin_tag(tag); }
 void PdfSheet::end_tag(const char* tag) { s_->end_tag(tag); }
-const std::vector<std::string>& PdfSheet::picture_words() const noexcept { return s_->picture_words; }
+const std::vector<std::string>& PdfSheet::picture_words() const noexcept {
+  return s_->picture_words;
+}
 
 int PdfSheet::finish() {
   if (!s_->finished) {
@@ -292,8 +316,10 @@ int PdfSheet::finish() {
     cairo_surface_finish(s_->surface);
     s_->finished = true;
   }
-  if (const cairo_status_t status = cairo_surface_status(s_->surface); status != CAIRO_STATUS_SUCCESS)
-    throw Error(msg("report"), msg("the PDF cannot be made: {}", cairo_status_to_string(status)), msg("write the report as .html"));
+  if (const cairo_status_t status = cairo_surface_status(s_->surface);
+      status != CAIRO_STATUS_SUCCESS)
+    throw Error(msg("report"), msg("the PDF cannot be made: {}", cairo_status_to_string(status)),
+                msg("write the report as .html"));
   return s_->page;
 }
 

@@ -1,5 +1,6 @@
-// A4 pages on which text, rules and pictures are put from top to bottom; a head with the title and a foot with page number and proof stand on each.
-// Cairo writes the file, Pango sets the text, librsvg draws the pictures.
+// A4 pages on which text, rules and pictures are put from top to bottom; a head with the title and
+// a foot with page number and proof stand on each. Cairo writes the file, Pango sets the text,
+// librsvg draws the pictures.
 #pragma once
 
 #include <memory>
@@ -24,7 +25,8 @@ struct PdfText {
   std::string lead = {};               ///< bold, before the text
   std::optional<PdfColour> fill = {};  ///< behind it
   double most_pt = 0;                  ///< greatest height, beyond which it ends in "…"; 0 = any
-  const char* tag = "P";               ///< what it is to a program that reads it aloud, as PDF names it: H1, P, TH ...; nullptr: nothing
+  const char* tag = "P";  ///< what it is to a program that reads it aloud, as PDF names it: H1, P,
+                          ///< TH ...; nullptr: nothing
 };
 
 /// A picture read from SVG. Throws Error when it is none.
@@ -67,7 +69,8 @@ class PdfSheet {
   void fill(double x_pt, double width_pt, double height_pt, PdfColour colour);
   void frame(double x_pt, double width_pt, double height_pt, PdfColour colour, double line_pt);
   /// `words`: for those who cannot see it.
-  void draw(const PdfPicture& picture, double x_pt, double y_pt, double width_pt, double height_pt, bool raster, const std::string& words);
+  void draw(const PdfPicture& picture, double x_pt, double y_pt, double width_pt, double height_pt,
+            bool raster, const std::string& words);
   /// Around what belongs together: Table, TR, L, LI. Each begin is paired with an end.
   void begin_tag(const char* tag);
   void end_tag(const char* tag);

@@ -2,7 +2,8 @@
 
 #include <fmt/core.h>
 
-#define POINTERHOLDER_TRANSITION 4  // qpdf 11 asks which of its pointers are meant: those of the standard library
+#define POINTERHOLDER_TRANSITION \
+  4  // qpdf 11 asks which of its pointers are meant: those of the standard library
 
 #include <memory>
 #include <qpdf/QPDF.hh>
@@ -61,7 +62,8 @@ class Structure {
       element.replaceKey("/Alt", QPDFObjectHandle::newUnicodeString(words));
       ++next_;
     }
-    if (kind.isName() && kind.getName() == "/TH") element.replaceKey("/A", QPDFObjectHandle::parse("<< /O /Table /Scope /Column >>"));
+    if (kind.isName() && kind.getName() == "/TH")
+      element.replaceKey("/A", QPDFObjectHandle::parse("<< /O /Table /Scope /Column >>"));
     QPDFObjectHandle inside = element.getKey("/K");
     if (inside.isArray())
       for (int i = 0; i < inside.getArrayNItems(); ++i) complete(inside.getArrayItem(i));
@@ -86,7 +88,8 @@ std::string metadata(const Document& d) {
 
 }  // namespace
 
-std::string complete_tags(const std::string& pdf, const Document& document, const std::vector<std::string>& pictures) {
+std::string complete_tags(const std::string& pdf, const Document& document,
+                          const std::vector<std::string>& pictures) {
   try {
     QPDF file;
     file.setSuppressWarnings(true);
@@ -112,7 +115,8 @@ std::string complete_tags(const std::string& pdf, const Document& document, cons
     const std::shared_ptr<Buffer> bytes = out.getBufferSharedPointer();
     return {reinterpret_cast<const char*>(bytes->getBuffer()), bytes->getSize()};
   } catch (const QPDFExc& e) {
-    throw Error(msg("report"), msg("the PDF cannot be tagged: {}", one_line(e.what())), msg("write the report as .html"));
+    throw Error(msg("report"), msg("the PDF cannot be tagged: {}", one_line(e.what())),
+                msg("write the report as .html"));
   }
 }
 

@@ -1,5 +1,6 @@
-// What cairo does not write into a tagged PDF: the document's language and title, words for its pictures, what the heads of tables head, and that
-// head, foot, rules and grounds of the pages are no content.
+// What cairo does not write into a tagged PDF: the document's language and title, words for its
+// pictures, what the heads of tables head, and that head, foot, rules and grounds of the pages are
+// no content.
 #pragma once
 
 #include <string>
@@ -9,8 +10,9 @@
 
 namespace cavum::report {
 
-/// `pdf` with that in it. `pictures`: words for each Figure, in their order. The same input gives the same bytes. Throws Error when `pdf` cannot be
-/// read.
-[[nodiscard]] std::string complete_tags(const std::string& pdf, const Document& document, const std::vector<std::string>& pictures);
+/// `pdf` with that in it. `pictures`: words for each Figure, in their order. The same input gives
+/// the same bytes. Throws Error when `pdf` cannot be read.
+[[nodiscard]] std::string complete_tags(const std::string& pdf, const Document& document,
+                                        const std::vector<std::string>& pictures);
 
 }  // namespace cavum::report

@@ -1,5 +1,5 @@
-// Prints a report's document as PDF on A4: head and page numbers on every page, tables that repeat their heads, fonts embedded, pictures from the
-// same SVG as the HTML's.
+// Prints a report's document as PDF on A4: head and page numbers on every page, tables that repeat
+// their heads, fonts embedded, pictures from the same SVG as the HTML's.
 #pragma once
 
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace cavum::report {
 
-/// The bytes of the file; the same document gives the same bytes on the same computer. Throws Error when a picture cannot be drawn.
+/// The bytes of the file; the same document gives the same bytes on the same computer. Throws Error
+/// when a picture cannot be drawn.
 [[nodiscard]] std::string pdf_of(const Document& document);
 
 }  // namespace cavum::report

@@ -33,7 +33,9 @@ void wait_until_near(ArmServo& servo, const ArmCheckOptions& o, double near) {
     servo.look();
     servo.push({});
     if (servo.now_s() > until)
-      throw ArmStopped(msg("it stands {} mm from the middle of its reach; bring it there, let go of it, and begin again", std::lround(off_mm())));
+      throw ArmStopped(msg(
+          "it stands {} mm from the middle of its reach; bring it there, let go of it, and begin again",
+          std::lround(off_mm())));
   }
 }
 
@@ -51,7 +53,9 @@ void take_home(ArmServo& servo, const ArmCheckOptions& o, double near) {
   }
   servo.rest(o.home_mm, k_settle_s, true);
   if (length(servo.at_mm() - o.home_mm) > k_arrived_mm)
-    throw ArmStopped(msg("{} N do not hold it in the middle of its reach; take the hand off it, balance it, and begin again", o.most_n));
+    throw ArmStopped(msg(
+        "{} N do not hold it in the middle of its reach; take the hand off it, balance it, and begin again",
+        o.most_n));
   servo.set_leash(k_leash_mm);
 }
 
@@ -72,15 +76,19 @@ double restlessness_mm(ArmServo& servo) {
   return widest;
 }
 
-/// A free arm stands still by its own friction, once it has slipped off what it hung on; a hand goes on trembling.
+/// A free arm stands still by its own friction, once it has slipped off what it hung on; a hand
+/// goes on trembling.
 void require_still(ArmServo& servo, double quantum_mm) {
   constexpr int k_watches = 3;
   constexpr double k_still_mm = 0.15, k_still_steps = 5.0;
   double moved_mm = 0.0;
   for (int i = 0; i < k_watches; ++i)
-    if (moved_mm = restlessness_mm(servo); moved_mm <= std::max(k_still_mm, k_still_steps * quantum_mm)) return;
-  throw ArmStopped(
-      msg("it moves by {} while it should stand still; take the hand off it, keep the table quiet, and begin again", as_mm(moved_mm, 2)));
+    if (moved_mm = restlessness_mm(servo);
+        moved_mm <= std::max(k_still_mm, k_still_steps * quantum_mm))
+      return;
+  throw ArmStopped(msg(
+      "it moves by {} while it should stand still; take the hand off it, keep the table quiet, and begin again",
+      as_mm(moved_mm, 2)));
 }
 
 /// What the passes themselves say against the figures.
@@ -88,11 +96,12 @@ Message doubt_of(const ArmFigures& f) {
   constexpr double k_max_friction_error_n = 0.03, k_max_mass_error = 0.05;
   for (std::size_t i = 0; i < 3; ++i) {
     if (f.axes[i].friction_error_n > k_max_friction_error_n)
-      return msg("friction along {} was not the same twice (to {}); take the hand off it, and begin again", k_axes_of_check[i],
-                 as_n(f.axes[i].friction_error_n, 3));
+      return msg(
+          "friction along {} was not the same twice (to {}); take the hand off it, and begin again",
+          k_axes_of_check[i], as_n(f.axes[i].friction_error_n, 3));
     if (f.axes[i].mass_error > k_max_mass_error)
-      return msg("it did not swing evenly along {} (to {}); take the hand off it, and begin again", k_axes_of_check[i],
-                 as_percent(100.0 * f.axes[i].mass_error));
+      return msg("it did not swing evenly along {} (to {}); take the hand off it, and begin again",
+                 k_axes_of_check[i], as_percent(100.0 * f.axes[i].mass_error));
   }
   return {};
 }
@@ -100,17 +109,20 @@ Message doubt_of(const ArmFigures& f) {
 void take_masses(const std::vector<SwingFit>& fits, ArmFigures& f) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!fits[axis].solved)
-      throw ArmStopped(msg("its swing along {} could not be read; take the hand off it, and begin again", k_axes_of_check[axis]));
+      throw ArmStopped(
+          msg("its swing along {} could not be read; take the hand off it, and begin again",
+              k_axes_of_check[axis]));
     f.axes[axis].mass_kg = fits[axis].mass_kg;
     f.axes[axis].mass_error = fits[axis].mass_error;
   }
 }
 
 double step_of(const std::vector<ArmSample>& samples) {
-  constexpr double k_no_way_mm = 1e-6, k_share = 0.05;
+  constexpr double k_no_path_mm = 1e-6, k_share = 0.05;
   std::vector<double> steps;
   for (std::size_t i = 1; i < samples.size(); ++i)
-    if (const double way = length(samples[i].at_mm - samples[i - 1].at_mm); way > k_no_way_mm && samples[i].fresh && samples[i - 1].fresh)
+    if (const double way = length(samples[i].at_mm - samples[i - 1].at_mm);
+        way > k_no_path_mm && samples[i].fresh && samples[i - 1].fresh)
       steps.push_back(way);
   return steps.empty() ? 0.0 : quantile(steps, k_share);
 }
@@ -121,7 +133,8 @@ void count_ticks(const ArmServo& servo, ArmFigures& f) {
   f.tick_mean_ms = 1e3 * mean(periods);
   f.tick_p99_ms = 1e3 * quantile(periods, 0.99);
   f.tick_worst_ms = 1e3 * *std::max_element(periods.begin(), periods.end());
-  const auto missed = std::count_if(periods.begin(), periods.end(), [](double p) { return p > 1.5 * ArmServo::k_tick_of_check_s; });
+  const auto missed = std::count_if(periods.begin(), periods.end(),
+                                    [](double p) { return p > 1.5 * ArmServo::k_tick_of_check_s; });
   f.ticks_missed = static_cast<double>(missed) / static_cast<double>(periods.size());
   f.stale = static_cast<double>(servo.stale()) / static_cast<double>(periods.size());
 }
@@ -135,7 +148,8 @@ ArmFigures check_arm(Stylus& stylus, const ArmCheckOptions& o) {
   const auto tell = [&](const Message& words, double share) {
     if (o.tell) o.tell({words, share});
   };
-  ArmServo servo(stylus, o.home_mm, std::min(o.most_n, stylus.facts().continuous_n), o.clock ? o.clock : real_arm_clock(), o.stop);
+  ArmServo servo(stylus, o.home_mm, std::min(o.most_n, stylus.facts().continuous_n),
+                 o.clock ? o.clock : real_arm_clock(), o.stop);
   double began_s = 0.0;
   std::array<std::vector<SwingSample>, 3> swings;
   try {
@@ -145,7 +159,8 @@ ArmFigures check_arm(Stylus& stylus, const ArmCheckOptions& o) {
     take_home(servo, o, near_mm(stylus));
     require_still(servo, stylus.facts().position_quantum_mm);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      tell(msg("Friction: it goes slowly forth and back. Do not touch it."), 0.1 + 0.15 * static_cast<double>(axis));
+      tell(msg("Friction: it goes slowly forth and back. Do not touch it."),
+           0.1 + 0.15 * static_cast<double>(axis));
       drag_axis(servo, axis, f);
     }
     f.doubt = doubt_of(f);
@@ -170,7 +185,8 @@ ArmFigures check_arm(Stylus& stylus, const ArmCheckOptions& o) {
   f.quantum_mm = step_of(servo.samples());
   count_ticks(servo, f);
   const StylusHealth after = stylus.health();
-  if (servo.now_s() > 0.0) f.rate_hz = static_cast<double>(after.readings - before.readings) / servo.now_s();
+  if (servo.now_s() > 0.0)
+    f.rate_hz = static_cast<double>(after.readings - before.readings) / servo.now_s();
   f.jitter_ms = 1e3 * after.jitter_s;
   tell(msg("Done."), 1.0);
   return f;

@@ -1,5 +1,6 @@
-// A stylus checks itself, free and untouched, in less than a minute: friction and apparent mass along each axis, the step of its places, its rate.
-// How each is measured, what it cannot see: docs/selfcheck.md.
+// A stylus checks itself, free and untouched, in less than a minute: friction and apparent mass
+// along each axis, the step of its places, its rate. How each is measured, what it cannot see:
+// docs/selfcheck.md.
 #pragma once
 
 #include <functional>
@@ -25,8 +26,9 @@ struct ArmCheckOptions {
   std::function<bool()> stop = {};
 };
 
-/// `stylus` speaks in its own frame (placement of identity), is ready, and nobody else reads it. It ends without force. What speaks against the
-/// figures is their `doubt`. Throws Error when the stylus is not ready, or falls silent meanwhile.
+/// `stylus` speaks in its own frame (placement of identity), is ready, and nobody else reads it. It
+/// ends without force. What speaks against the figures is their `doubt`. Throws Error when the
+/// stylus is not ready, or falls silent meanwhile.
 [[nodiscard]] ArmFigures check_arm(Stylus& stylus, const ArmCheckOptions& options);
 
 }  // namespace cavum

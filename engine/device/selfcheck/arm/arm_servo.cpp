@@ -23,8 +23,13 @@ ArmClock real_arm_clock() {
   };
 }
 
-ArmServo::ArmServo(Stylus& stylus, Vec3 home_mm, double most_n, ArmClock clock, std::function<bool()> stop)
-    : stylus_(stylus), home_mm_(home_mm), most_n_(most_n), clock_(std::move(clock)), stop_(std::move(stop)) {
+ArmServo::ArmServo(Stylus& stylus, Vec3 home_mm, double most_n, ArmClock clock,
+                   std::function<bool()> stop)
+    : stylus_(stylus),
+      home_mm_(home_mm),
+      most_n_(most_n),
+      clock_(std::move(clock)),
+      stop_(std::move(stop)) {
   constexpr std::size_t k_minute = 60'000;
   samples_.reserve(k_minute);
   periods_s_.reserve(k_minute);
@@ -49,7 +54,8 @@ void ArmServo::look() {
     ++stale_;
     if (++silent_ > k_max_silent) {
       stylus_.cut_force();
-      throw stylus_error(stylus_.facts().id, DeviceError::silent, msg("fell silent while it was checked"),
+      throw stylus_error(stylus_.facts().id, DeviceError::silent,
+                         msg("fell silent while it was checked"),
                          msg("see `cavum devices`, and begin again"));
     }
     return;
@@ -64,7 +70,8 @@ void ArmServo::look() {
   at_mm_ = r.pose.tip_mm;
   if (length(at_mm_ - home_mm_) > leash_mm_) {
     stylus_.cut_force();
-    throw ArmStopped(msg("it was carried off from where it is checked; take the hand off it, and begin again"));
+    throw ArmStopped(
+        msg("it was carried off from where it is checked; take the hand off it, and begin again"));
   }
 }
 
@@ -76,7 +83,8 @@ void ArmServo::push(Vec3 force_n) {
 }
 
 Vec3 ArmServo::hold(Vec3 wanted_mm, Vec3 speed_mm_s) const {
-  return lean_n_ + (wanted_mm - at_mm_) * k_hold_n_per_mm + (speed_mm_s - speed_mm_s_) * k_hold_n_s_per_mm;
+  return lean_n_ + (wanted_mm - at_mm_) * k_hold_n_per_mm +
+         (speed_mm_s - speed_mm_s_) * k_hold_n_s_per_mm;
 }
 
 void ArmServo::learn_lean(Vec3 wanted_mm) {
@@ -84,7 +92,9 @@ void ArmServo::learn_lean(Vec3 wanted_mm) {
   if (const double size = length(lean_n_); size > most_n_) lean_n_ = lean_n_ * (most_n_ / size);
 }
 
-void ArmServo::set_lean(std::size_t axis, double n) { lean_n_ += along_axis(axis, n - on_axis(lean_n_, axis)); }
+void ArmServo::set_lean(std::size_t axis, double n) {
+  lean_n_ += along_axis(axis, n - on_axis(lean_n_, axis));
+}
 
 void ArmServo::rest(Vec3 wanted_mm, double seconds, bool learn) {
   for (const double until = now_s_ + seconds; now_s_ < until;) {

@@ -1,5 +1,5 @@
-// The loop in which a stylus is checked: a tick each millisecond, forces of at most a newton, and an end of all force as soon as something is felt
-// that is no free arm.
+// The loop in which a stylus is checked: a tick each millisecond, forces of at most a newton, and
+// an end of all force as soon as something is felt that is no free arm.
 #pragma once
 
 #include <array>
@@ -40,13 +40,15 @@ class ArmServo {
  public:
   static constexpr double k_tick_of_check_s = 1e-3;
 
-  /// `home_mm`: where it is checked, stylus frame. `most_n`: no force is larger. `stop`: asked each tick; may be empty.
+  /// `home_mm`: where it is checked, stylus frame. `most_n`: no force is larger. `stop`: asked each
+  /// tick; may be empty.
   ArmServo(Stylus& stylus, Vec3 home_mm, double most_n, ArmClock clock, std::function<bool()> stop);
   ~ArmServo() { stylus_.cut_force(); }
   ArmServo(const ArmServo&) = delete;
   ArmServo& operator=(const ArmServo&) = delete;
 
-  /// Waits for the next tick and reads. Throws ArmStopped when it was stopped or leaves its place, Error when the stylus is silent for half a second.
+  /// Waits for the next tick and reads. Throws ArmStopped when it was stopped or leaves its place,
+  /// Error when the stylus is silent for half a second.
   void look();
   /// Commands a force until the next, at most `most_n`, and keeps the sample.
   void push(Vec3 force_n);
@@ -88,7 +90,9 @@ class ArmServo {
   std::vector<double> periods_s_;
 };
 
-[[nodiscard]] inline double on_axis(Vec3 v, std::size_t axis) noexcept { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+[[nodiscard]] inline double on_axis(Vec3 v, std::size_t axis) noexcept {
+  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
 [[nodiscard]] inline Vec3 along_axis(std::size_t axis, double size) noexcept {
   return {axis == 0 ? size : 0.0, axis == 1 ? size : 0.0, axis == 2 ? size : 0.0};
 }

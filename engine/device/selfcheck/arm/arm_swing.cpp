@@ -13,7 +13,8 @@
 namespace cavum {
 namespace {
 
-constexpr double k_swing_n = 0.45, k_swing_of_friction = 1.5, k_swing_mm = 8.0, k_swing_s = 6.0, k_swing_begins_s = 0.7, k_calm_s = 0.3;
+constexpr double k_swing_n = 0.45, k_swing_of_friction = 1.5, k_swing_mm = 8.0, k_swing_s = 6.0,
+                 k_swing_begins_s = 0.7, k_calm_s = 0.3;
 constexpr Eigen::Index k_unknowns = 4;  // 1/mass, and over mass: friction, weight, viscous
 
 using SwingSolution = Eigen::Matrix<double, k_unknowns, 1>;
@@ -57,7 +58,8 @@ struct SwingRow {
   double rhs = 0.0;
 };
 
-std::optional<SwingRow> row_of(std::span<const SwingSample> s, const SwingRun& run, double middle_s, double half_s, double delay_s, double way) {
+std::optional<SwingRow> row_of(std::span<const SwingSample> s, const SwingRun& run, double middle_s,
+                               double half_s, double delay_s, double way) {
   constexpr double k_longest_step_s = 0.006;
   SwingRow row;
   const auto bump = [&](double t, double& b, double& b1, double& b2) {
@@ -79,7 +81,8 @@ std::optional<SwingRow> row_of(std::span<const SwingSample> s, const SwingRun& r
     if (a0 == 0.0 && b0 == 0.0) continue;
     if (step > k_longest_step_s || !s[i].fresh) return std::nullopt;
     row.rhs += 0.5 * step * (a2 * s[i].at_mm + b2 * s[i + 1].at_mm) * 1e-3;  // mm to m
-    if constexpr (k_unknowns > 3) row.columns[k_unknowns - 1] += 0.5 * step * (a1 * s[i].at_mm + b1 * s[i + 1].at_mm);
+    if constexpr (k_unknowns > 3)
+      row.columns[k_unknowns - 1] += 0.5 * step * (a1 * s[i].at_mm + b1 * s[i + 1].at_mm);
     area += 0.5 * step * (a0 + b0);
   }
   // the force acts `delay_s` later than it was commanded, and stays until the next command
@@ -103,7 +106,8 @@ struct SwingRows {
   std::vector<std::size_t> part;  // of five
 };
 
-SwingRows rows_of(std::span<const SwingSample> s, const std::vector<SwingRun>& runs, double delay_s) {
+SwingRows rows_of(std::span<const SwingSample> s, const std::vector<SwingRun>& runs,
+                  double delay_s) {
   constexpr double k_margin = 0.08, k_half = 0.28;  // shares of a run
   constexpr int k_places = 6;
   SwingRows out;
@@ -123,8 +127,10 @@ SwingRows rows_of(std::span<const SwingSample> s, const std::vector<SwingRun>& r
 }
 
 /// Least squares over the parts but one; -1: over all.
-bool solve(const SwingRows& rows, int without, SwingSolution& x, double& rms, double& scale_of_rhs) {
-  Eigen::Matrix<double, k_unknowns, k_unknowns> a = Eigen::Matrix<double, k_unknowns, k_unknowns>::Zero();
+bool solve(const SwingRows& rows, int without, SwingSolution& x, double& rms,
+           double& scale_of_rhs) {
+  Eigen::Matrix<double, k_unknowns, k_unknowns> a =
+      Eigen::Matrix<double, k_unknowns, k_unknowns>::Zero();
   SwingSolution b = SwingSolution::Zero();
   double squares = 0.0;
   std::size_t n = 0;
@@ -139,7 +145,8 @@ bool solve(const SwingRows& rows, int without, SwingSolution& x, double& rms, do
   constexpr std::size_t k_min_rows = 30;
   if (n < k_min_rows) return false;
   const SwingSolution scale = a.diagonal().cwiseMax(1e-30).cwiseSqrt().cwiseInverse();
-  const Eigen::Matrix<double, k_unknowns, k_unknowns> scaled = scale.asDiagonal() * a * scale.asDiagonal();
+  const Eigen::Matrix<double, k_unknowns, k_unknowns> scaled =
+      scale.asDiagonal() * a * scale.asDiagonal();
   const Eigen::LDLT<Eigen::Matrix<double, k_unknowns, k_unknowns>> ldlt(scaled);
   if (ldlt.info() != Eigen::Success || !(ldlt.rcond() > 1e-10)) return false;
   x = scale.asDiagonal() * ldlt.solve(scale.asDiagonal() * b);
@@ -161,15 +168,16 @@ std::vector<SwingFit> fit_swings(std::span<const std::vector<SwingSample>> swing
     if (places.empty()) return fits;
     runs.push_back(runs_of(swing, 0.5 * (quantile(places, 0.02) + quantile(places, 0.98))));
   }
-  // Acceleration is what is fitted: fitting the force instead, a delay up to the turning points and friction as large as the force would explain it
-  // all.
+  // Acceleration is what is fitted: fitting the force instead, a delay up to the turning points and
+  // friction as large as the force would explain it all.
   SwingSolution x;
   const auto squares_at = [&](double delay_s) {
     double sum = 0.0;
     for (std::size_t i = 0; i < swings.size(); ++i) {
       double residual = 0.0, scale = 0.0;
       if (!solve(rows_of(swings[i], runs[i], delay_s), -1, x, residual, scale)) return 1e300;
-      sum += residual * residual / (scale * scale);  // an axis with more mass swings with less acceleration
+      sum += residual * residual /
+             (scale * scale);  // an axis with more mass swings with less acceleration
     }
     return sum;
   };
@@ -182,8 +190,10 @@ std::vector<SwingFit> fit_swings(std::span<const std::vector<SwingSample>> swing
     }
   if (least >= 1e300) return fits;
   if (best > 0.0) {  // the vertex of the parabola through three
-    const double before = squares_at(best - k_delay_step_s), after = squares_at(best + k_delay_step_s);
-    if (const double bend = before - 2.0 * least + after; bend > 0.0) best += 0.5 * k_delay_step_s * (before - after) / bend;
+    const double before = squares_at(best - k_delay_step_s),
+                 after = squares_at(best + k_delay_step_s);
+    if (const double bend = before - 2.0 * least + after; bend > 0.0)
+      best += 0.5 * k_delay_step_s * (before - after) / bend;
   }
   for (std::size_t i = 0; i < swings.size(); ++i) {
     const SwingRows rows = rows_of(swings[i], runs[i], best);
@@ -198,9 +208,11 @@ std::vector<SwingFit> fit_swings(std::span<const std::vector<SwingSample>> swing
     fit.residual_n = residual * fit.mass_kg;
     std::vector<double> masses;  // jackknife over the parts of the swing
     for (int part = 0; part < k_parts; ++part)
-      if (SwingSolution y; solve(rows, part, y, residual, scale) && y(0) > 0.0) masses.push_back(1.0 / y(0));
+      if (SwingSolution y; solve(rows, part, y, residual, scale) && y(0) > 0.0)
+        masses.push_back(1.0 / y(0));
     if (masses.size() != k_parts) continue;
-    fit.mass_error = std::sqrt(variance(masses) * (k_parts - 1) * (k_parts - 1) / k_parts) / fit.mass_kg;
+    fit.mass_error =
+        std::sqrt(variance(masses) * (k_parts - 1) * (k_parts - 1) / k_parts) / fit.mass_kg;
     fit.solved = true;
   }
   return fits;
@@ -210,7 +222,8 @@ namespace {
 
 double swing_force_n(const ArmServo& servo, std::size_t axis, const ArmFigures& figures) {
   const double side = length(servo.lean_n() - along_axis(axis, on_axis(servo.lean_n(), axis)));
-  const double room = std::sqrt(std::max(0.0, servo.most_n() * servo.most_n() - side * side)) - std::abs(figures.axes[axis].weight_n);
+  const double room = std::sqrt(std::max(0.0, servo.most_n() * servo.most_n() - side * side)) -
+                      std::abs(figures.axes[axis].weight_n);
   return std::min(k_swing_n + k_swing_of_friction * figures.axes[axis].friction_n, room);
 }
 
@@ -218,17 +231,22 @@ double swing_force_n(const ArmServo& servo, std::size_t axis, const ArmFigures& 
 
 Message too_heavy_to_swing(const ArmServo& servo, std::size_t axis, const ArmFigures& figures) {
   constexpr double k_min_over_friction = 1.15;
-  if (swing_force_n(servo, axis, figures) >= k_min_over_friction * figures.axes[axis].friction_n) return {};
-  return msg("weight and friction along {} leave too little of {} to swing it; balance it, or have its joints seen to", k_swing_names[axis],
-             as_n(servo.most_n(), k_as_needed));
+  if (swing_force_n(servo, axis, figures) >= k_min_over_friction * figures.axes[axis].friction_n)
+    return {};
+  return msg(
+      "weight and friction along {} leave too little of {} to swing it; balance it, or have its joints seen to",
+      k_swing_names[axis], as_n(servo.most_n(), k_as_needed));
 }
 
 std::vector<SwingSample> swing_axis(ArmServo& servo, std::size_t axis, const ArmFigures& figures) {
-  const double weight = figures.axes[axis].weight_n, home = on_axis(servo.home_mm(), axis), swing_n = swing_force_n(servo, axis, figures);
-  // The force turns `ahead_mm` past home, on either side. From a turning point at X an arm that is driven by A − c and braked by A + c comes to
-  // ahead + kept (X + ahead) on the other side, kept = (A − c)/(A + c): any arm swings by k_swing_mm.
+  const double weight = figures.axes[axis].weight_n, home = on_axis(servo.home_mm(), axis),
+               swing_n = swing_force_n(servo, axis, figures);
+  // The force turns `ahead_mm` past home, on either side. From a turning point at X an arm that is
+  // driven by A − c and braked by A + c comes to ahead + kept (X + ahead) on the other side, kept =
+  // (A − c)/(A + c): any arm swings by k_swing_mm.
   constexpr double k_max_ahead_mm = 5.5, k_risen_mm = 0.5, k_lost_s = 0.7;
-  const double friction = figures.axes[axis].friction_n, kept = (swing_n - friction) / (swing_n + friction);
+  const double friction = figures.axes[axis].friction_n,
+               kept = (swing_n - friction) / (swing_n + friction);
   std::vector<SwingSample> samples;
   double ahead_mm = 0.0, way = 1.0, lowest_mm = 0.0, turned_s = servo.now_s();
   const double begin = servo.now_s();
@@ -236,13 +254,16 @@ std::vector<SwingSample> swing_axis(ArmServo& servo, std::size_t axis, const Arm
     servo.look();
     double at = (on_axis(servo.at_mm(), axis) - home) * way;
     lowest_mm = std::min(lowest_mm, at);
-    ahead_mm = std::clamp((k_swing_mm + kept * lowest_mm) / (1.0 + kept), -k_max_ahead_mm, k_max_ahead_mm);
+    ahead_mm =
+        std::clamp((k_swing_mm + kept * lowest_mm) / (1.0 + kept), -k_max_ahead_mm, k_max_ahead_mm);
     if (at > ahead_mm && at - lowest_mm > k_risen_mm) {
       way = -way;
       lowest_mm = at = -at;
       turned_s = servo.now_s();
     } else if (servo.now_s() - turned_s > k_lost_s) {
-      throw ArmStopped(msg("it does not swing along {}: take the hand off it, and what stands in its way, and begin again", k_swing_names[axis]));
+      throw ArmStopped(msg(
+          "it does not swing along {}: take the hand off it, and what stands in its way, and begin again",
+          k_swing_names[axis]));
     }
     Vec3 force = servo.hold(servo.home_mm());
     force += along_axis(axis, weight + way * swing_n - on_axis(force, axis));
@@ -251,7 +272,9 @@ std::vector<SwingSample> swing_axis(ArmServo& servo, std::size_t axis, const Arm
     samples.push_back({s.t_s, on_axis(s.at_mm, axis), on_axis(s.force_n, axis), s.fresh});
   }
   servo.rest(servo.home_mm(), k_calm_s, false);
-  const auto from = std::find_if(samples.begin(), samples.end(), [&](const SwingSample& s) { return s.t_s - begin > k_swing_begins_s; });
+  const auto from = std::find_if(samples.begin(), samples.end(), [&](const SwingSample& s) {
+    return s.t_s - begin > k_swing_begins_s;
+  });
   return {from, samples.end()};
 }
 

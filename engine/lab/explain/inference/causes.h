@@ -1,4 +1,5 @@
-// The search for causes: one after the other, as long as a candidate gains what no surrogate does; then each is held against all others in its place.
+// The search for causes: one after the other, as long as a candidate gains what no surrogate does;
+// then each is held against all others in its place.
 #pragma once
 
 #include <functional>
@@ -18,10 +19,14 @@ struct Step {
   Judgement judgement;
 };
 
-inline constexpr double k_alias_chi2 = 10.0;  ///< a rival this close fits as well, in noise that is what it seems
+inline constexpr double k_alias_chi2 =
+    10.0;  ///< a rival this close fits as well, in noise that is what it seems
 
-/// How far in chi² one explanation may be behind another that earned `earned`, and count as fitting as well.
-[[nodiscard]] inline double within_alias(double earned, double inflation) { return k_alias_chi2 * inflation + 0.003 * earned; }
+/// How far in chi² one explanation may be behind another that earned `earned`, and count as fitting
+/// as well.
+[[nodiscard]] inline double within_alias(double earned, double inflation) {
+  return k_alias_chi2 * inflation + 0.003 * earned;
+}
 
 /// What is known so far. `recording` and `options` must outlive it.
 struct CauseSearch {
@@ -37,14 +42,16 @@ struct CauseSearch {
 };
 
 /// Looks at the recording without any cause.
-[[nodiscard]] CauseSearch begin_search(const Recording& recording, const ExplainOptions& options, std::function<void()> done);
-/// Looks again, with the causes as they are now; refines their shapes first, for with a cause in the model k and c move, and with them who is in
-/// contact and clipped.
+[[nodiscard]] CauseSearch begin_search(const Recording& recording, const ExplainOptions& options,
+                                       std::function<void()> done);
+/// Looks again, with the causes as they are now; refines their shapes first, for with a cause in
+/// the model k and c move, and with them who is in contact and clipped.
 void look_again(CauseSearch& search);
-/// Adds causes until no candidate is left that is worth it; what then depends on a variable that no mechanism describes.
+/// Adds causes until no candidate is left that is worth it; what then depends on a variable that no
+/// mechanism describes.
 [[nodiscard]] std::optional<Unexplained> add_causes(CauseSearch& search);
-/// Does every cause still earn its place, and is there a better one in that place? The causes with their aliases. True: some changed since the last
-/// look.
+/// Does every cause still earn its place, and is there a better one in that place? The causes with
+/// their aliases. True: some changed since the last look.
 [[nodiscard]] bool weigh_causes(CauseSearch& search, std::vector<Cause>& weighed);
 
 }  // namespace cavum::explain

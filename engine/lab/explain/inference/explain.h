@@ -1,4 +1,5 @@
-// Measured data against the simulation: what it gets wrong, why, and what fixing it gains. How: docs/explain.md.
+// Measured data against the simulation: what it gets wrong, why, and what fixing it gains. How:
+// docs/explain.md.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +23,8 @@ struct Interval {
 /// Another mechanism in the place of a cause, refitted beside the others.
 struct RivalFit {
   std::string mechanism;
-  double behind_chi2 = 0;  ///< how much worse it fits, each parameter counted; negative where it fits better
+  double behind_chi2 =
+      0;  ///< how much worse it fits, each parameter counted; negative where it fits better
 };
 
 struct Cause {
@@ -31,9 +33,9 @@ struct Cause {
   std::vector<RivalFit> rivals;      ///< best first; those that were worth a refit
   std::vector<std::pair<std::string, Interval>> parameters;
   double p_value = 1;
-  double effect_n = 0;                  ///< root mean square of its force
-  Series force_n;                       ///< what it adds, [rows]
-  Interval gain_percent;                ///< of the error on sessions not seen, by it alone beside the others
+  double effect_n = 0;    ///< root mean square of its force
+  Series force_n;         ///< what it adds, [rows]
+  Interval gain_percent;  ///< of the error on sessions not seen, by it alone beside the others
   std::vector<double> by_fold_percent;  ///< the same of each session (or stretch) left out
   double probability = 0;               ///< that it is a true cause, 0 to 1
   double set_probability = 0;           ///< that it or one of its aliases is
@@ -74,18 +76,20 @@ struct Explanation {
   Base base;  ///< fitted with the causes
   Interval k, c;
   Noise noise;
-  double position_error_n = 0;  ///< rms of the force that the errors of position and speed may make by k and c, N
-  SessionSpread spread{};       ///< what sessions differ by, beside the causes
+  double position_error_n =
+      0;  ///< rms of the force that the errors of position and speed may make by k and c, N
+  SessionSpread spread{};  ///< what sessions differ by, beside the causes
   Fact next_experiment;
   std::vector<Structure> structures;           ///< of the residual that is left
   std::vector<Candidate> candidates;           ///< of the first look, for the report
   std::shared_ptr<const Recording> recording;  ///< as it was explained; the views refer to it
-  std::optional<View> before, after;           ///< base alone, and with the causes; none for data faults
+  std::optional<View> before, after;  ///< base alone, and with the causes; none for data faults
 };
 
 struct ExplainOptions {
   std::uint64_t seed = 1;
-  std::size_t surrogates = 199;  ///< for each step of the search; 0 = a plain rule instead of the null, for comparison
+  std::size_t surrogates =
+      199;  ///< for each step of the search; 0 = a plain rule instead of the null, for comparison
   int max_causes = 5;
   const Series* fixed_n = nullptr;       ///< forces of a loaded model, [rows]
   std::function<void(double)> progress;  ///< 0..1
@@ -105,10 +109,11 @@ struct ExplainOptions {
 [[nodiscard]] Message heading_of(const Cause& cause);
 [[nodiscard]] Lines to_text(const Cause& cause);
 [[nodiscard]] Lines gain_words(const Explanation& explanation);
-/// What is left out together, one after the other: the name of a session, of the first and the last of several, or "part 1".
+/// What is left out together, one after the other: the name of a session, of the first and the last
+/// of several, or "part 1".
 [[nodiscard]] std::vector<Message> fold_names(const Explanation& explanation);
-/// A sentence about what is left when the recording is clean and the simulation still misses by half as much again as the noise: errors of the
-/// position may make as much. Else empty.
+/// A sentence about what is left when the recording is clean and the simulation still misses by
+/// half as much again as the noise: errors of the position may make as much. Else empty.
 [[nodiscard]] Message left_over_words(const Explanation& explanation);
 
 }  // namespace cavum::explain

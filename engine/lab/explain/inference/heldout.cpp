@@ -22,11 +22,15 @@ std::vector<Term> search_without(const View& view, const Null& null, int fold, i
     const Judgement j = judge(now, null, fold);
     std::vector<std::pair<double, const Candidate*>> found;
     for (std::size_t m = 0; m < candidates.size(); ++m)
-      if (candidates[m].testable && j.p_value[m] < k_alpha && candidates[m].gain > 0.0) found.emplace_back(-candidates[m].gain, &candidates[m]);
+      if (candidates[m].testable && j.p_value[m] < k_alpha && candidates[m].gain > 0.0)
+        found.emplace_back(-candidates[m].gain, &candidates[m]);
     if (found.empty()) break;
-    std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::sort(found.begin(), found.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
     TermFits fits(now);
-    double least = penalised_chi2(fits, causes) - k_min_earned * (step > 0 ? 2.0 * j.inflation : 1.0);  // as the search with all sessions asks
+    double least = penalised_chi2(fits, causes) -
+                   k_min_earned * (step > 0 ? 2.0 * j.inflation
+                                            : 1.0);  // as the search with all sessions asks
     std::vector<Term> best;
     for (std::size_t i = 0; i < std::min(k_rivals, found.size()); ++i) {
       std::vector<Term> trial = causes;
@@ -49,9 +53,10 @@ std::vector<Term> search_without(const View& view, const Null& null, int fold, i
   return causes;
 }
 
-/// A phase is no property of the rig: where a mechanism has one for each session, the others give the amplitude, and the phase comes from the
-/// rows [begin, end) that are left out.
-void fill_phases(const View& view, const std::vector<Term>& causes, Eigen::Index begin, Eigen::Index end, Eigen::VectorXd& value) {
+/// A phase is no property of the rig: where a mechanism has one for each session, the others give
+/// the amplitude, and the phase comes from the rows [begin, end) that are left out.
+void fill_phases(const View& view, const std::vector<Term>& causes, Eigen::Index begin,
+                 Eigen::Index end, Eigen::VectorXd& value) {
   Eigen::Index at = 2;
   for (const auto& term : causes) {
     const Mechanism& m = mechanism_at(term.mechanism);
@@ -61,8 +66,10 @@ void fill_phases(const View& view, const std::vector<Term>& causes, Eigen::Index
     if (!m.by_session || count <= 2) continue;
     double amplitude = 0.0, others = 0.0;
     for (Eigen::Index i = 0; i + 1 < count; i += 2)
-      if (const double a = std::hypot(value[first + i], value[first + i + 1]); a > 0.0) amplitude += a, others += 1.0;
-    const Series left = (*view.force_n - force_of(*view.scene, causes, value)).segment(begin, end - begin);
+      if (const double a = std::hypot(value[first + i], value[first + i + 1]); a > 0.0)
+        amplitude += a, others += 1.0;
+    const Series left =
+        (*view.force_n - force_of(*view.scene, causes, value)).segment(begin, end - begin);
     for (Eigen::Index i = 0; i + 1 < count && others > 0.0; i += 2) {
       const Series sine = c.own[static_cast<std::size_t>(i)].segment(begin, end - begin),
                    cosine = c.own[static_cast<std::size_t>(i + 1)].segment(begin, end - begin);
@@ -77,7 +84,8 @@ void fill_phases(const View& view, const std::vector<Term>& causes, Eigen::Index
 /// Sum of the squares of what `terms`, fitted without the fold, leave in it.
 class Folds {
  public:
-  Folds(const View& first, const SessionSpread& spread) : first_(first), spread_(spread), white_(whitening_of(first)) {}
+  Folds(const View& first, const SessionSpread& spread)
+      : first_(first), spread_(spread), white_(whitening_of(first)) {}
 
   [[nodiscard]] View without(std::size_t fold) const {
     View out = first_;
@@ -85,7 +93,8 @@ class Folds {
     out.robust.change().segment(begin, end - begin) = 0.0;
     return out;
   }
-  [[nodiscard]] double error2(const View& masked, std::size_t fold, const std::vector<Term>& terms) const {
+  [[nodiscard]] double error2(const View& masked, std::size_t fold,
+                              const std::vector<Term>& terms) const {
     const auto [begin, end] = first_.folds[fold];
     const View seen = terms.empty() ? masked : without_pulling(masked, terms);
     Eigen::VectorXd value = TermFits(seen).fit(terms).value;
@@ -93,7 +102,8 @@ class Folds {
     Series left = *first_.force_n - force_of(*seen.scene, terms, value);
     Series z = left;
     white_.apply(z);
-    left -= session_force_n(*first_.scene->recording, *first_.effects, *first_.white_effects, z, spread_);
+    left -= session_force_n(*first_.scene->recording, *first_.effects, *first_.white_effects, z,
+                            spread_);
     return left.segment(begin, end - begin).square().sum();
   }
 
@@ -103,17 +113,21 @@ class Folds {
   Whitening white_;
 };
 
-double rmse(const std::vector<double>& error2, const std::vector<double>& rows, const std::vector<std::size_t>& which) {
+double rmse(const std::vector<double>& error2, const std::vector<double>& rows,
+            const std::vector<std::size_t>& which) {
   double sum = 0.0, n = 0.0;
   for (const std::size_t f : which) sum += error2[f], n += rows[f];
   return std::sqrt(sum / std::max(1.0, n));
 }
 
 /// 100 (1 - with/without), with the percentiles of 500 resamplings of the folds.
-Interval percent_of(const std::vector<double>& without, const std::vector<double>& with, const std::vector<double>& rows) {
+Interval percent_of(const std::vector<double>& without, const std::vector<double>& with,
+                    const std::vector<double>& rows) {
   const std::size_t folds = rows.size();
   std::vector<std::size_t> which(folds);
-  const auto percent = [&] { return 100.0 * (1.0 - rmse(with, rows, which) / std::max(1e-300, rmse(without, rows, which))); };
+  const auto percent = [&] {
+    return 100.0 * (1.0 - rmse(with, rows, which) / std::max(1e-300, rmse(without, rows, which)));
+  };
   for (std::size_t i = 0; i < folds; ++i) which[i] = i;
   Interval out{percent(), 0, 0};
   std::vector<double> resampled;
@@ -130,7 +144,8 @@ Interval percent_of(const std::vector<double>& without, const std::vector<double
 
 std::vector<double> by_fold(const std::vector<double>& without, const std::vector<double>& with) {
   std::vector<double> out;
-  for (std::size_t f = 0; f < without.size(); ++f) out.push_back(100.0 * (1.0 - std::sqrt(with[f] / std::max(1e-300, without[f]))));
+  for (std::size_t f = 0; f < without.size(); ++f)
+    out.push_back(100.0 * (1.0 - std::sqrt(with[f] / std::max(1e-300, without[f]))));
   return out;
 }
 
@@ -142,7 +157,8 @@ std::vector<double> rows_of(const View& v) {
 
 }  // namespace
 
-Gain heldout_gain(const View& first, const Null& null, const ExplainOptions& options, const SessionSpread& spread, double noise_floor_n) {
+Gain heldout_gain(const View& first, const Null& null, const ExplainOptions& options,
+                  const SessionSpread& spread, double noise_floor_n) {
   const std::size_t folds = first.folds.size();
   std::vector<double> base(folds, 0.0), extended(folds, 0.0);
   const Folds left_out(first, spread);
@@ -162,11 +178,14 @@ Gain heldout_gain(const View& first, const Null& null, const ExplainOptions& opt
   g.percent = percent_of(base, extended, rows);
   g.by_fold_percent = by_fold(base, extended);
   const double could = g.base_rmse_n - noise_floor_n;
-  g.share_percent = could > 0.0 ? std::clamp(100.0 * (g.base_rmse_n - g.extended_rmse_n) / could, 0.0, 100.0) : 0.0;
+  g.share_percent =
+      could > 0.0 ? std::clamp(100.0 * (g.base_rmse_n - g.extended_rmse_n) / could, 0.0, 100.0)
+                  : 0.0;
   return g;
 }
 
-std::vector<OwnGain> gain_of_each(const View& first, const std::vector<Term>& causes, const SessionSpread& spread) {
+std::vector<OwnGain> gain_of_each(const View& first, const std::vector<Term>& causes,
+                                  const SessionSpread& spread) {
   const std::size_t folds = first.folds.size();
   const Folds left_out(first, spread);
   std::vector<std::vector<double>> without(causes.size(), std::vector<double>(folds, 0.0));
@@ -181,7 +200,8 @@ std::vector<OwnGain> gain_of_each(const View& first, const std::vector<Term>& ca
     }
   });
   std::vector<OwnGain> out;
-  for (std::size_t c = 0; c < causes.size(); ++c) out.push_back({percent_of(without[c], with, rows_of(first)), by_fold(without[c], with)});
+  for (std::size_t c = 0; c < causes.size(); ++c)
+    out.push_back({percent_of(without[c], with, rows_of(first)), by_fold(without[c], with)});
   return out;
 }
 

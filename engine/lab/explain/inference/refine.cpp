@@ -8,7 +8,8 @@ namespace cavum::explain {
 
 Term start_of(TermFits& fits, const std::vector<Term>& others, const Candidate& c) {
   Term term = c.hypothesis.term;
-  if (c.hypothesis.scale >= 0.999 || (c.hypothesis.spring < 0 && c.hypothesis.damper < 0)) return term;
+  if (c.hypothesis.scale >= 0.999 || (c.hypothesis.spring < 0 && c.hypothesis.damper < 0))
+    return term;
   // the scale stands for a shape between this point and none: try some, keep the best
   const Mechanism& m = mechanism_at(term.mechanism);
   const std::vector<ShapeRange> ranges = ranges_of(m, *fits.view().scene);
@@ -19,7 +20,8 @@ Term start_of(TermFits& fits, const std::vector<Term>& others, const Candidate& 
     for (std::size_t i = 0; i < m.shape.size(); ++i) {
       if (!m.shape[i].fitted || term.shape[i] == 0.0) continue;
       const bool power = std::string(m.shape[i].name) == "m" || std::string(m.shape[i].name) == "n";
-      trial.shape[i] = std::clamp(power ? 1.0 + (term.shape[i] - 1.0) * part : term.shape[i] * part, ranges[i].low, ranges[i].high);
+      trial.shape[i] = std::clamp(power ? 1.0 + (term.shape[i] - 1.0) * part : term.shape[i] * part,
+                                  ranges[i].low, ranges[i].high);
     }
     std::vector<Term> causes = others;
     causes.push_back(trial);
@@ -34,16 +36,21 @@ std::vector<Term> refine(TermFits& fits, std::vector<Term> causes, int cycles, s
   std::vector<std::vector<double>> width(causes.size());
   for (std::size_t i = 0; i < causes.size(); ++i)
     for (const auto& s : mechanism_at(causes[i].mechanism).shape)
-      width[i].push_back(std::string(s.name) == "frequency_hz" ? 4e-3 : std::string(s.name) == "rate_ratio" ? 1e-5 : s.logarithmic ? 0.35 : 0.1);
+      width[i].push_back(std::string(s.name) == "frequency_hz" ? 4e-3
+                         : std::string(s.name) == "rate_ratio" ? 1e-5
+                         : s.logarithmic                       ? 0.35
+                                                               : 0.1);
   for (int cycle = 0; cycle < cycles; ++cycle)
     for (std::size_t i = first; i < causes.size(); ++i) {
-      const std::vector<ShapeRange> ranges = ranges_of(mechanism_at(causes[i].mechanism), *fits.view().scene);
+      const std::vector<ShapeRange> ranges =
+          ranges_of(mechanism_at(causes[i].mechanism), *fits.view().scene);
       for (std::size_t s = 0; s < ranges.size(); ++s) {
         if (!ranges[s].fitted || causes[i].shape[s] == 0.0) continue;
         const auto moved = [&](double by) {
           auto trial = causes;
           double& x = trial[i].shape[s];
-          x = std::clamp(ranges[s].logarithmic ? x * std::exp(by) : x + by, ranges[s].low, ranges[s].high);
+          x = std::clamp(ranges[s].logarithmic ? x * std::exp(by) : x + by, ranges[s].low,
+                         ranges[s].high);
           return trial;
         };
         // a parabola through three points, or a step downhill; the width follows
@@ -52,7 +59,9 @@ std::vector<Term> refine(TermFits& fits, std::vector<Term> causes, int cycles, s
           const auto up = moved(w), down = moved(-w);
           const double a = fits.fit(up).chi2, b = fits.fit(down).chi2;
           const double curve = a + b - 2 * best;
-          double by = curve > 0.0 ? std::clamp(0.5 * w * (b - a) / curve, -2.0 * w, 2.0 * w) : a < b ? 2.0 * w : -2.0 * w;
+          double by = curve > 0.0 ? std::clamp(0.5 * w * (b - a) / curve, -2.0 * w, 2.0 * w)
+                      : a < b     ? 2.0 * w
+                                  : -2.0 * w;
           const auto trial = moved(by);
           const double c = fits.fit(trial).chi2;
           double least = best;

@@ -16,11 +16,13 @@ namespace {
 constexpr double k_exact_n = 1e-3;
 constexpr double k_95 = 1.96;
 
-constexpr CsvForm k_table{.most_fields = 200,
-                          .most_rows = 5000,  // each is left out in turn, which takes the square of their number
-                          .plain_text = false};
+constexpr CsvForm k_table{
+    .most_fields = 200,
+    .most_rows = 5000,  // each is left out in turn, which takes the square of their number
+    .plain_text = false};
 
-/// A column that each table has, and the least of its values; with `above` they are greater than that.
+/// A column that each table has, and the least of its values; with `above` they are greater than
+/// that.
 struct TableColumn {
   const char* name;
   std::vector<double> StiffnessTable::*values;
@@ -28,19 +30,24 @@ struct TableColumn {
   bool above;
 };
 constexpr std::array k_columns{TableColumn{"k_n_per_mm", &StiffnessTable::k_n_per_mm, 0.0, false},
-                               TableColumn{"f_n", &StiffnessTable::f_n, -1e9, false}, TableColumn{"v_mm_s", &StiffnessTable::v_mm_s, 0.0, true}};
+                               TableColumn{"f_n", &StiffnessTable::f_n, -1e9, false},
+                               TableColumn{"v_mm_s", &StiffnessTable::v_mm_s, 0.0, true}};
 
 /// Where a column stands; the number of columns when there is none of that name.
 std::size_t place_of(const CsvReader& heading, std::string_view name) {
-  return static_cast<std::size_t>(std::find(heading.fields().begin(), heading.fields().end(), name) - heading.fields().begin());
+  return static_cast<std::size_t>(
+      std::find(heading.fields().begin(), heading.fields().end(), name) - heading.fields().begin());
 }
-bool holds(const CsvReader& heading, std::string_view name) { return place_of(heading, name) < heading.fields().size(); }
+bool holds(const CsvReader& heading, std::string_view name) {
+  return place_of(heading, name) < heading.fields().size();
+}
 
 double value_in(const CsvReader& row, std::size_t place, const TableColumn& column) {
   const std::string_view cell = row.fields()[place];
   const std::optional<double> v = number_in_field(cell);
   if (!v || *v < column.least || (column.above && *v == column.least))
-    row.fail(msg("'{}' in column {} is no number in range", one_line(cell), column.name), msg("correct the row"));
+    row.fail(msg("'{}' in column {} is no number in range", one_line(cell), column.name),
+             msg("correct the row"));
   return *v;
 }
 
@@ -66,18 +73,24 @@ TableFit fitted(const StiffnessTable& t, bool root, bool intercept, std::ptrdiff
   if (left_out >= 0) return out;
   double sum = 0.0;
   for (std::size_t i = 0; i < t.f_n.size(); ++i)
-    sum += std::pow(t.f_n[i] - fitted(t, root, intercept, static_cast<std::ptrdiff_t>(i)).at(t.k_n_per_mm[i]), 2);
+    sum += std::pow(
+        t.f_n[i] - fitted(t, root, intercept, static_cast<std::ptrdiff_t>(i)).at(t.k_n_per_mm[i]),
+        2);
   out.left_out_rms_n = std::sqrt(sum / static_cast<double>(t.f_n.size()));
   return out;
 }
 
-Interval interval(double value, double error) { return {value, value - k_95 * error, value + k_95 * error}; }
+Interval interval(double value, double error) {
+  return {value, value - k_95 * error, value + k_95 * error};
+}
 
 /// What the table says about the law, sentence by sentence.
 Facts sentences(const TableExplanation& e) {
-  const double v = e.table.v_mm_s.front(), most = *std::max_element(e.table.k_n_per_mm.begin(), e.table.k_n_per_mm.end());
+  const double v = e.table.v_mm_s.front(),
+               most = *std::max_element(e.table.k_n_per_mm.begin(), e.table.k_n_per_mm.end());
   const bool one_speed = std::set<double>(e.table.v_mm_s.begin(), e.table.v_mm_s.end()).size() == 1;
-  const double share = 100.0 * std::min(1.0, e.of_root.intercept_n / std::max(1e-9, e.line.intercept_n));
+  const double share =
+      100.0 * std::min(1.0, e.of_root.intercept_n / std::max(1e-9, e.line.intercept_n));
   Facts out;
   out.emplace_back(
       "intercept", std::vector{"speed", "force_at_0"},
@@ -98,20 +111,26 @@ Facts sentences(const TableExplanation& e) {
       "root_hides", std::vector{"root", "most", "at_k", "slope", "intercept", "share"},
       msg("c V with c = 2 √k adds {} √k N, {} at k = {}, and bends the row. A straight line laid through that bend alone has a slope of {} and an "
           "intercept of {}: so a line hides a √k as intercept and slope, yet it explains at most {} of the intercept here.",
-          as_number(e.predicted_root, 3), as_n(e.predicted_root * std::sqrt(most), 3), as_number(most), as_mm(e.of_root.slope_mm, 3),
-          as_n(e.of_root.intercept_n, 3), as_percent(share)));
+          as_number(e.predicted_root, 3), as_n(e.predicted_root * std::sqrt(most), 3),
+          as_number(most), as_mm(e.of_root.slope_mm, 3), as_n(e.of_root.intercept_n, 3),
+          as_percent(share)));
   out.emplace_back(
-      "without_intercept", std::vector{"root", "slope", "rms", "at_0", "root_with_all", "root_published"},
+      "without_intercept",
+      std::vector{"root", "slope", "rms", "at_0", "root_with_all", "root_published"},
       msg("Fitted without an intercept, k X + √k takes {} √k N and a slope of {} to imitate it, and still misses by {} rms and by {} at k = 0; "
           "with all three the table asks for {} √k N, where the published c V needs {}.",
-          as_number(e.voigt.root, 3), as_mm(e.voigt.slope_mm, 3), as_n(e.voigt.rms_n, 3), as_n(e.line.intercept_n, 3),
-          Number{e.all.root, cavum::Unit::none, 3, k_95 * e.all.root_error}, as_number(e.predicted_root, 3)));
-  if (std::fabs(e.all.root - e.predicted_root) > std::max(k_95 * e.all.root_error, 0.1 * e.predicted_root))
+          as_number(e.voigt.root, 3), as_mm(e.voigt.slope_mm, 3), as_n(e.voigt.rms_n, 3),
+          as_n(e.line.intercept_n, 3),
+          Number{e.all.root, cavum::Unit::none, 3, k_95 * e.all.root_error},
+          as_number(e.predicted_root, 3)));
+  if (std::fabs(e.all.root - e.predicted_root) >
+      std::max(k_95 * e.all.root_error, 0.1 * e.predicted_root))
     out.emplace_back(
         "straight_row", std::vector{"slope", "time_constant", "instead_of"},
         msg("A straight row speaks against a force of c V with c = 2 √k. If it were there all the same, the slope of k X would be {}, and τ {} "
             "instead of {}.",
-            as_mm(e.line.slope_mm - e.of_root.slope_mm, 3), as_s((e.line.slope_mm - e.of_root.slope_mm) / v, 2), as_s(e.line.slope_mm / v, 2)));
+            as_mm(e.line.slope_mm - e.of_root.slope_mm, 3),
+            as_s((e.line.slope_mm - e.of_root.slope_mm) / v, 2), as_s(e.line.slope_mm / v, 2)));
   if (e.exact)
     out.emplace_back(
         "exact",
@@ -133,7 +152,9 @@ Message next_experiment() {
 
 }  // namespace
 
-double TableFit::at(double k_n_per_mm) const { return slope_mm * k_n_per_mm + root * std::sqrt(k_n_per_mm) + intercept_n; }
+double TableFit::at(double k_n_per_mm) const {
+  return slope_mm * k_n_per_mm + root * std::sqrt(k_n_per_mm) + intercept_n;
+}
 
 bool is_stiffness_table(const std::string& csv, const std::string& where) {
   CsvReader in(csv, where, k_table);
@@ -145,27 +166,35 @@ StiffnessTable parse_stiffness_table(const std::string& csv, const std::string& 
   CsvReader in(csv, where, k_table);
   CsvReader::Line line;
   while ((line = in.next()) == CsvReader::Line::comment)
-    if (!in.comment().empty()) out.origin += (out.origin.empty() ? "" : " ") + one_line(in.comment());
+    if (!in.comment().empty())
+      out.origin += (out.origin.empty() ? "" : " ") + one_line(in.comment());
 
   std::array<std::size_t, k_columns.size()> places{};
   for (std::size_t i = 0; line == CsvReader::Line::row && i < places.size(); ++i) {
-    if (!holds(in, k_columns[i].name)) in.fail(msg("there is no column '{}'", k_columns[i].name), msg("a table has k_n_per_mm, f_n and v_mm_s"));
+    if (!holds(in, k_columns[i].name))
+      in.fail(msg("there is no column '{}'", k_columns[i].name),
+              msg("a table has k_n_per_mm, f_n and v_mm_s"));
     places[i] = place_of(in, k_columns[i].name);
   }
   while (in.next_row())
-    for (std::size_t i = 0; i < places.size(); ++i) (out.*k_columns[i].values).push_back(value_in(in, places[i], k_columns[i]));
-  if (out.f_n.empty()) throw Error(where, msg("has no rows"), msg("give a table of k_n_per_mm, f_n and v_mm_s"));
+    for (std::size_t i = 0; i < places.size(); ++i)
+      (out.*k_columns[i].values).push_back(value_in(in, places[i], k_columns[i]));
+  if (out.f_n.empty())
+    throw Error(where, msg("has no rows"), msg("give a table of k_n_per_mm, f_n and v_mm_s"));
   return out;
 }
 
 TableExplanation explain_table(const StiffnessTable& table) {
   TableExplanation e;
   e.table = table;
-  Explanation& said = e.said;
-  if (table.f_n.size() < 5 || std::set<double>(table.k_n_per_mm.begin(), table.k_n_per_mm.end()).size() < 4) {
-    said.verdict = Verdict::data_fault;
-    said.data_faults.push_back({DataFault::Kind::too_few, msg("a line, a root and an intercept need five rows of four stiffnesses at least")});
-    said.next_experiment = Fact("more_stiffnesses", msg("measure at more stiffnesses"));
+  Explanation& explanation = e.explanation;
+  if (table.f_n.size() < 5 ||
+      std::set<double>(table.k_n_per_mm.begin(), table.k_n_per_mm.end()).size() < 4) {
+    explanation.verdict = Verdict::data_fault;
+    explanation.data_faults.push_back(
+        {DataFault::Kind::too_few,
+         msg("a line, a root and an intercept need five rows of four stiffnesses at least")});
+    explanation.next_experiment = Fact("more_stiffnesses", msg("measure at more stiffnesses"));
     return e;
   }
   e.line = fitted(table, false, true);
@@ -173,42 +202,50 @@ TableExplanation explain_table(const StiffnessTable& table) {
   e.all = fitted(table, true, true);
   e.predicted_root = 2.0 * table.v_mm_s.front();
   StiffnessTable root = table;
-  for (std::size_t i = 0; i < root.f_n.size(); ++i) root.f_n[i] = e.predicted_root * std::sqrt(root.k_n_per_mm[i]);
+  for (std::size_t i = 0; i < root.f_n.size(); ++i)
+    root.f_n[i] = e.predicted_root * std::sqrt(root.k_n_per_mm[i]);
   e.of_root = fitted(root, false, true);
   e.exact = e.line.rms_n < k_exact_n;
 
   const double error = std::max(e.all.intercept_error_n, 1e-9), z = e.all.intercept_n / error;
-  said.verdict = z > 2.6 ? Verdict::alias : Verdict::not_testable;
-  if (said.verdict == Verdict::alias) {
+  explanation.verdict = z > 2.6 ? Verdict::alias : Verdict::not_testable;
+  if (explanation.verdict == Verdict::alias) {
     Cause c;
     c.term.mechanism = known_mechanism("bias");
-    for (const char* other : {"coulomb_friction", "edge_force", "stribeck_friction", "viscous_friction"}) c.aliases.emplace_back(other);
+    for (const char* other :
+         {"coulomb_friction", "edge_force", "stribeck_friction", "viscous_friction"})
+      c.aliases.emplace_back(other);
     c.parameters.emplace_back("bias_n", interval(e.line.intercept_n, e.line.intercept_error_n));
     c.p_value = normal_cdf(-z);
     c.effect_n = e.line.intercept_n;
-    said.causes.push_back(c);
+    explanation.causes.push_back(c);
   }
   for (const auto& m : mechanisms()) {
     const auto in_set = [&](const Cause& c) {
-      return c.term.mechanism == find_mechanism(m.name) || std::find(c.aliases.begin(), c.aliases.end(), m.name) != c.aliases.end();
+      return c.term.mechanism == find_mechanism(m.name) ||
+             std::find(c.aliases.begin(), c.aliases.end(), m.name) != c.aliases.end();
     };
-    if (std::none_of(said.causes.begin(), said.causes.end(), in_set))
-      said.not_testable.push_back({m.name, msg("a table of means at constant speed")});
+    if (std::none_of(explanation.causes.begin(), explanation.causes.end(), in_set))
+      explanation.not_testable.push_back({m.name, msg("a table of means at constant speed")});
   }
-  said.gain.base_rmse_n = e.voigt.left_out_rms_n;
-  said.gain.extended_rmse_n = e.line.left_out_rms_n;
-  said.gain.noise_floor_n = e.line.rms_n;
-  const double gained = 100.0 * (1.0 - e.line.left_out_rms_n / std::max(1e-12, e.voigt.left_out_rms_n));
-  said.gain.percent = {gained, gained, gained};
-  said.notes = sentences(e);
-  if (!table.origin.empty()) said.notes.insert(said.notes.begin(), Fact("origin", {"says"}, msg("The table says of itself: {}", table.origin)));
-  said.next_experiment = Fact("with_motion", next_experiment());
+  explanation.gain.base_rmse_n = e.voigt.left_out_rms_n;
+  explanation.gain.extended_rmse_n = e.line.left_out_rms_n;
+  explanation.gain.noise_floor_n = e.line.rms_n;
+  const double gained =
+      100.0 * (1.0 - e.line.left_out_rms_n / std::max(1e-12, e.voigt.left_out_rms_n));
+  explanation.gain.percent = {gained, gained, gained};
+  explanation.notes = sentences(e);
+  if (!table.origin.empty())
+    explanation.notes.insert(
+        explanation.notes.begin(),
+        Fact("origin", {"says"}, msg("The table says of itself: {}", table.origin)));
+  explanation.next_experiment = Fact("with_motion", next_experiment());
   return e;
 }
 
 Message in_words(const TableExplanation& e) {
-  if (e.said.verdict == Verdict::data_fault) return in_words(e.said);
-  return e.said.verdict == Verdict::alias
+  if (e.explanation.verdict == Verdict::data_fault) return in_words(e.explanation);
+  return e.explanation.verdict == Verdict::alias
              ? msg("A force of {} is missing that does not depend on k: friction, a bias of the load cell or an edge force; the table cannot tell "
                    "which.",
                    as_n(e.line.intercept_n, 3))
@@ -219,7 +256,8 @@ Lines law_rows(const TableExplanation& e) {
   Lines out;
   const auto fit = [&out](const Message& name, const TableFit& f) {
     out.row({name,
-             msg("F = {} k {} √k {}", as_number(f.slope_mm, 3), Number{f.root, cavum::Unit::none, 3, 0, true},
+             msg("F = {} k {} √k {}", as_number(f.slope_mm, 3),
+                 Number{f.root, cavum::Unit::none, 3, 0, true},
                  Number{f.intercept_n, cavum::Unit::newton, 3, 0, true}),
              msg("rms {}, row left out {}", as_n(f.rms_n, 4), as_n(f.left_out_rms_n, 4))});
   };
@@ -230,33 +268,44 @@ Lines law_rows(const TableExplanation& e) {
 }
 
 Lines to_text(const TableExplanation& e) {
-  const Explanation& said = e.said;
-  if (said.verdict == Verdict::data_fault) return to_text(said);
+  const Explanation& explanation = e.explanation;
+  if (explanation.verdict == Verdict::data_fault) return to_text(explanation);
   Lines out;
-  out.add(msg("verdict: {}. {}", word_of(said.verdict), in_words(e)));
-  for (const auto& c : said.causes) {
+  out.add(msg("verdict: {}. {}", word_of(explanation.verdict), in_words(e)));
+  for (const auto& c : explanation.causes) {
     out.gap();
-    out.add(msg("cause: one of bias coulomb_friction edge_force stribeck_friction viscous_friction, {} at every k", as_n(c.effect_n, 4)));
-    out.add(msg("none of them alone: these data hold no reversal, no stroke in air, one speed, and no spindle at rest"), 2);
+    out.add(msg(
+        "cause: one of bias coulomb_friction edge_force stribeck_friction viscous_friction, {} at every k",
+        as_n(c.effect_n, 4)));
+    out.add(
+        msg("none of them alone: these data hold no reversal, no stroke in air, one speed, and no spindle at rest"),
+        2);
   }
   out.gap();
   out.append(law_rows(e), 2);
   out.gap();
-  for (const auto& s : said.notes) out.add(msg("- {}", s.what()));
+  for (const auto& s : explanation.notes) out.add(msg("- {}", s.what()));
   out.gap();
-  out.add(msg("next experiment: {}", said.next_experiment.what()));
+  out.add(msg("next experiment: {}", explanation.next_experiment.what()));
   return out;
 }
 
 nlohmann::json to_json(const TableExplanation& e) {
-  nlohmann::json j = to_json(e.said);
+  nlohmann::json j = to_json(e.explanation);
   const auto fit = [](const TableFit& f) {
-    return nlohmann::json{
-        {"slope_mm", f.slope_mm}, {"root", f.root}, {"intercept_n", f.intercept_n}, {"rms_n", f.rms_n}, {"left_out_rms_n", f.left_out_rms_n}};
+    return nlohmann::json{{"slope_mm", f.slope_mm},
+                          {"root", f.root},
+                          {"intercept_n", f.intercept_n},
+                          {"rms_n", f.rms_n},
+                          {"left_out_rms_n", f.left_out_rms_n}};
   };
   j["base"]["k_n_per_mm"] = nullptr;
   j["base"]["c_n_s_per_mm"] = nullptr;
-  j["table"] = {{"line", fit(e.line)}, {"voigt", fit(e.voigt)}, {"all", fit(e.all)}, {"predicted_root", e.predicted_root}, {"exact", e.exact}};
+  j["table"] = {{"line", fit(e.line)},
+                {"voigt", fit(e.voigt)},
+                {"all", fit(e.all)},
+                {"predicted_root", e.predicted_root},
+                {"exact", e.exact}};
   return j;
 }
 

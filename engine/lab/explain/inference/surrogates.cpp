@@ -12,10 +12,12 @@
 namespace cavum::explain {
 namespace {
 
-constexpr std::size_t k_motions = 24;      // drawn, and shared by the surrogates
-constexpr double k_certain_mean = 0.9995;  // of the rows' weights: beyond it the position leaves nothing open
+constexpr std::size_t k_motions = 24;  // drawn, and shared by the surrogates
+constexpr double k_certain_mean =
+    0.9995;  // of the rows' weights: beyond it the position leaves nothing open
 constexpr std::size_t k_motions_at_a_time = 4;
-constexpr std::size_t k_at_a_time = 16;  // surrogates that are made and scored: all at once would be large
+constexpr std::size_t k_at_a_time =
+    16;  // surrogates that are made and scored: all at once would be large
 
 /// Largest number up to n with no prime factor above 5: what the transform is quick for.
 std::size_t smooth_length(std::size_t n) {
@@ -32,7 +34,8 @@ const std::vector<std::complex<float>>& phases() {
     constexpr std::size_t k_phases = 4096;
     std::vector<std::complex<float>> out(k_phases);
     for (std::size_t i = 0; i < k_phases; ++i)
-      out[i] = std::complex<float>(std::polar(1.0, 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(k_phases)));
+      out[i] = std::complex<float>(std::polar(
+          1.0, 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(k_phases)));
     return out;
   }();
   return all;
@@ -48,16 +51,18 @@ Eigen::FFT<float>& transform() {
   return fft;
 }
 
-/// What the force would be off by if the tool had moved otherwise, as far as the position leaves that open, whitened; empty when it leaves nothing
-/// open.
+/// What the force would be off by if the tool had moved otherwise, as far as the position leaves
+/// that open, whitened; empty when it leaves nothing open.
 Eigen::MatrixXf motion_errors(const View& v, std::uint64_t seed) {
   if (v.scene->weight.mean() > k_certain_mean) return {};
   Eigen::MatrixXf out(v.force_n->size(), static_cast<Eigen::Index>(k_motions));
   const Whitening white = whitening_of(v);
   for (std::size_t first = 0; first < k_motions; first += k_motions_at_a_time) {
-    const std::vector<Motion> drawn = draw_motions(*v.scene->recording, *v.scene->motion, {first, first + k_motions_at_a_time}, seed);
+    const std::vector<Motion> drawn = draw_motions(*v.scene->recording, *v.scene->motion,
+                                                   {first, first + k_motions_at_a_time}, seed);
     independent_runs(drawn.size(), [&](std::size_t i) {
-      Scene truth = make_scene(*v.scene->recording, drawn[i], v.scene->base, v.noise.sd_n, v.noise.rho);
+      Scene truth =
+          make_scene(*v.scene->recording, drawn[i], v.scene->base, v.noise.sd_n, v.noise.rho);
       truth.lines_hz = v.scene->lines_hz;
       truth.left_n = v.scene->left_n;
       Series off = force_of(truth, v.causes, v.base_fit.value) - *v.model_n;
@@ -71,7 +76,8 @@ Eigen::MatrixXf motion_errors(const View& v, std::uint64_t seed) {
 }  // namespace
 
 Phases::Phases(const Series& z, const SessionRows& rows)
-    : own_(z.segment(rows.begin, rows.end - rows.begin).cast<float>()), smooth_(smooth_length(static_cast<std::size_t>(own_.size()))) {
+    : own_(z.segment(rows.begin, rows.end - rows.begin).cast<float>()),
+      smooth_(smooth_length(static_cast<std::size_t>(own_.size()))) {
   const std::vector<float> in(own_.data(), own_.data() + smooth_);
   std::vector<std::complex<float>> spectrum;
   transform().fwd(spectrum, in);
@@ -82,15 +88,19 @@ void Phases::draw(Random& random, float* out) const {
   std::vector<std::complex<float>> spectrum(size_.size());
   for (std::size_t i = 0; i < spectrum.size(); ++i) {
     const bool real = i == 0 || 2 * i == smooth_;
-    spectrum[i] = size_[i] * phases()[real ? phases().size() / 2 * random.below(2) : random.below(phases().size())];
+    spectrum[i] =
+        size_[i] *
+        phases()[real ? phases().size() / 2 * random.below(2) : random.below(phases().size())];
   }
   std::vector<float> drawn(smooth_);
   transform().inv(drawn, spectrum, static_cast<Eigen::Index>(smooth_));
   const auto n = static_cast<std::size_t>(own_.size());
-  for (std::size_t i = 0; i < n; ++i) out[i] = i < smooth_ ? drawn[i] : own_[static_cast<Eigen::Index>(random.below(n))];
+  for (std::size_t i = 0; i < n; ++i)
+    out[i] = i < smooth_ ? drawn[i] : own_[static_cast<Eigen::Index>(random.below(n))];
 }
 
-Surrogates::Surrogates(const View& v, std::uint64_t seed) : seed_(seed), errors_(motion_errors(v, seed)) {
+Surrogates::Surrogates(const View& v, std::uint64_t seed)
+    : seed_(seed), errors_(motion_errors(v, seed)) {
   Series z = *v.residual_n;
   whitening_of(v).apply(z);
   for (const auto& s : v.scene->recording->sessions) {
@@ -105,8 +115,10 @@ Eigen::MatrixXf Surrogates::noise(std::size_t first, std::size_t count) const {
   independent_runs(count, [&](std::size_t i) {
     Random random(seed_ + 0x9e3779b97f4a7c15ULL * (first + i + 1));
     const auto column = static_cast<Eigen::Index>(i);
-    for (std::size_t s = 0; s < sessions_.size(); ++s) sessions_[s].draw(random, out.col(column).data() + begin_[s]);
-    if (errors_.cols() > 0) out.col(column) += errors_.col(static_cast<Eigen::Index>(first + i) % errors_.cols());
+    for (std::size_t s = 0; s < sessions_.size(); ++s)
+      sessions_[s].draw(random, out.col(column).data() + begin_[s]);
+    if (errors_.cols() > 0)
+      out.col(column) += errors_.col(static_cast<Eigen::Index>(first + i) % errors_.cols());
   });
   return out;
 }
@@ -135,11 +147,13 @@ Observed observed_surrogates(const View& v, const Surrogates& surrogates, std::s
       by_session[s] = Eigen::MatrixXd::Zero(columns, size);
       for (Eigen::Index at = sessions[s].begin; at < sessions[s].end; at += k_white_rows) {
         const Eigen::Index rows = std::min(k_white_rows, sessions[s].end - at);
-        by_session[s] += (v.white->rows(at, rows).transpose() * z.middleRows(at, rows)).cast<double>();
+        by_session[s] +=
+            (v.white->rows(at, rows).transpose() * z.middleRows(at, rows)).cast<double>();
       }
       const Eigen::Index begin = sessions[s].begin, length = sessions[s].end - begin;
       with_effects[s].middleCols(from, size) =
-          v.white_effects->middleRows(begin, length).transpose().cast<double>() * z.middleRows(begin, length).cast<double>();
+          v.white_effects->middleRows(begin, length).transpose().cast<double>() *
+          z.middleRows(begin, length).cast<double>();
     });
     for (const auto& one : by_session) with_columns.middleCols(from, size) += one;
     squares.segment(from, size) = z.colwise().squaredNorm().transpose().cast<double>();
@@ -149,9 +163,14 @@ Observed observed_surrogates(const View& v, const Surrogates& surrogates, std::s
   for (std::size_t s = 0; s < sessions.size(); ++s) {
     Eigen::MatrixXd own(k_session_effects, n);
     for (Eigen::Index i = 0; i < n; ++i)
-      for (std::size_t e = 0; e < k_session_effects; ++e) own(static_cast<Eigen::Index>(e), i) = v.spread[e] * random.normal();
+      for (std::size_t e = 0; e < k_session_effects; ++e)
+        own(static_cast<Eigen::Index>(e), i) = v.spread[e] * random.normal();
     with_columns += sessions[s].with_effects * own;
-    squares += (2.0 * own.cwiseProduct(with_effects[s]) + own.cwiseProduct(sessions[s].effects * own)).colwise().sum().transpose();
+    squares +=
+        (2.0 * own.cwiseProduct(with_effects[s]) + own.cwiseProduct(sessions[s].effects * own))
+            .colwise()
+            .sum()
+            .transpose();
     with_effects[s] += sessions[s].effects * own;
   }
   Observed out;
@@ -161,7 +180,8 @@ Observed observed_surrogates(const View& v, const Surrogates& surrogates, std::s
     for (std::size_t i = 0; i < sessions.size(); ++i) {
       const Eigen::MatrixXd& inverse = sessions[i].inverse[u];
       out.with_columns.back() -= sessions[i].with_effects * (inverse * with_effects[i]);
-      out.squares.back() -= with_effects[i].cwiseProduct(inverse * with_effects[i]).colwise().sum().transpose();
+      out.squares.back() -=
+          with_effects[i].cwiseProduct(inverse * with_effects[i]).colwise().sum().transpose();
     }
   }
   return out;

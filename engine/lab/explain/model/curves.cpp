@@ -12,7 +12,8 @@ constexpr int k_knots = 6;  // of a curve
 constexpr double k_lags_s[] = {0.1, 0.3, 1.0, 3.0};
 constexpr Eigen::Index k_steps_most = 36;  // instants at which a step is tried, in all
 
-/// Piecewise linear curves over quantiles of u, the mean over `where` taken out, times `where`. Empty when u is constant.
+/// Piecewise linear curves over quantiles of u, the mean over `where` taken out, times `where`.
+/// Empty when u is constant.
 std::vector<Series> over_quantiles(const Series& u, const Series& where) {
   std::vector<double> sorted;
   const Eigen::Index stride = std::max<Eigen::Index>(1, u.size() / 5000);
@@ -23,16 +24,19 @@ std::vector<Series> over_quantiles(const Series& u, const Series& where) {
   std::vector<double> knots;
   for (int k = 0; k < k_knots; ++k) {
     const double q = quantile_of_sorted(sorted, static_cast<double>(k) / (k_knots - 1));
-    if (knots.empty() || q > knots.back() + 1e-9 * (sorted.back() - sorted.front())) knots.push_back(q);
+    if (knots.empty() || q > knots.back() + 1e-9 * (sorted.back() - sorted.front()))
+      knots.push_back(q);
   }
-  if (std::vector<double> few = sorted; few.erase(std::unique(few.begin(), few.end()), few.end()), few.size() <= k_knots)
+  if (std::vector<double> few = sorted;
+      few.erase(std::unique(few.begin(), few.end()), few.end()), few.size() <= k_knots)
     knots.assign(few.begin(), few.end());
   if (knots.size() < 2) return {};
   std::vector<Series> out(knots.size() - 1, Series::Zero(u.size()));
   for (Eigen::Index i = 0; i < u.size(); ++i) {
     if (where[i] == 0.0) continue;
     const double x = std::clamp(u[i], knots.front(), knots.back());
-    const auto at = static_cast<std::size_t>(std::upper_bound(knots.begin() + 1, knots.end() - 1, x) - knots.begin() - 1);
+    const auto at = static_cast<std::size_t>(
+        std::upper_bound(knots.begin() + 1, knots.end() - 1, x) - knots.begin() - 1);
     const double part = (x - knots[at]) / (knots[at + 1] - knots[at]);
     if (at > 0) out[at - 1][i] = 1.0 - part;
     out[at][i] = part;
@@ -61,10 +65,13 @@ class Curves {
   void over(const std::string& variable, const Series& u, bool with_force) {
     add(variable, msg("a curve, in air too"), over_quantiles(u, Series::Ones(u.size())));
     add(variable, msg("a curve while in contact"), over_quantiles(u, scene_.active));
-    if (with_force) add(variable, msg("a curve in proportion to the force"), over_quantiles(u, scene_.force_n));
+    if (with_force)
+      add(variable, msg("a curve in proportion to the force"), over_quantiles(u, scene_.force_n));
   }
   void later(const std::string& variable, const Series& u) {
-    for (const double lag : k_lags_s) add(variable, msg("in proportion, {} later", as_s(lag, 1)), {lagged_by(*scene_.recording, u, lag)});
+    for (const double lag : k_lags_s)
+      add(variable, msg("in proportion, {} later", as_s(lag, 1)),
+          {lagged_by(*scene_.recording, u, lag)});
   }
   /// A step that stays to the end of its session, or of the recording.
   void steps() {
@@ -81,7 +88,8 @@ class Curves {
           step.segment(at, (whole ? r.rows() : s.end) - at) = 1.0;
           add("t_s",
               whole ? msg("a step at about {} of session {}", as_s(r.t_s[at], 1), s.name)
-                    : msg("a step at about {} of session {}, until its end", as_s(r.t_s[at], 1), s.name),
+                    : msg("a step at about {} of session {}, until its end", as_s(r.t_s[at], 1),
+                          s.name),
               {std::move(step)});
         }
       }
@@ -107,7 +115,9 @@ void each_curve(const Scene& s, const std::function<void(Curve)>& take) {
   for (const auto& [name, u] : r.columns) {
     if (!(u.maxCoeff() > u.minCoeff())) continue;
     curves.over(name, u, true);
-    if (std::set<double> few(u.data(), u.data() + std::min<Eigen::Index>(u.size(), 2000)); few.size() > 20) curves.later(name, u);
+    if (std::set<double> few(u.data(), u.data() + std::min<Eigen::Index>(u.size(), 2000));
+        few.size() > 20)
+      curves.later(name, u);
   }
 }
 

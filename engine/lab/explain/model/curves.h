@@ -1,5 +1,6 @@
-// Dependences on a variable that no mechanism is meant by: flexible curves over every numeric column (in air too, in contact, in proportion to the
-// force), the same some time later, and steps in time. They say where to look when nothing that has a name fits.
+// Dependences on a variable that no mechanism is meant by: flexible curves over every numeric
+// column (in air too, in contact, in proportion to the force), the same some time later, and steps
+// in time. They say where to look when nothing that has a name fits.
 #pragma once
 
 #include <functional>
@@ -17,7 +18,8 @@ struct Curve {
   std::vector<Series> columns;
 };
 
-/// Gives them to `take` one after the other, in the order of the columns, those of one variable together: all at once would be large.
+/// Gives them to `take` one after the other, in the order of the columns, those of one variable
+/// together: all at once would be large.
 void each_curve(const Scene& scene, const std::function<void(Curve)>& take);
 
 }  // namespace cavum::explain

@@ -1,4 +1,5 @@
-// What cutting adds: a constant edge force, wear of the bur, lines from the spindle or from chatter, water, heat.
+// What cutting adds: a constant edge force, wear of the bur, lines from the spindle or from
+// chatter, water, heat.
 #include <cmath>
 
 #include "engine/base/text.h"
@@ -16,8 +17,9 @@ constexpr double k_turn = 2.0 * k_pi;
 
 bool has(const Scene& s, const char* column) { return s.recording->column(column) != nullptr; }
 
-/// Volume removed since the bur was new. `removed_mm3` may count up, or hold what each row removed (then it goes up and
-/// down all the time). Variants: 0 as counted, 1 carried on over resets at the start of a session.
+/// Volume removed since the bur was new. `removed_mm3` may count up, or hold what each row removed
+/// (then it goes up and down all the time). Variants: 0 as counted, 1 carried on over resets at the
+/// start of a session.
 Series worn_mm3(const Scene& s, bool carried) {
   const Series& removed = *s.recording->column("removed_mm3");
   const Series* bur = s.recording->column("bur_id");
@@ -43,7 +45,8 @@ Series worn_mm3(const Scene& s, bool carried) {
   return out;
 }
 
-/// Sine and cosine of `turns` times `where`, a pair for each session, for a spindle starts at any angle.
+/// Sine and cosine of `turns` times `where`, a pair for each session, for a spindle starts at any
+/// angle.
 Columns line(const Scene& s, const Series& turns, const Series& where) {
   Series sine = Series::Zero(turns.size()), cosine = Series::Zero(turns.size());
   for (Eigen::Index i = 0; i < turns.size(); ++i) {
@@ -56,7 +59,8 @@ Columns line(const Scene& s, const Series& turns, const Series& where) {
   for (const auto& rows : s.recording->sessions)
     for (const Series* part : {&sine, &cosine}) {
       c.own.push_back(Series::Zero(turns.size()));
-      c.own.back().segment(rows.begin, rows.end - rows.begin) = part->segment(rows.begin, rows.end - rows.begin);
+      c.own.back().segment(rows.begin, rows.end - rows.begin) =
+          part->segment(rows.begin, rows.end - rows.begin);
     }
   return c;
 }
@@ -69,7 +73,8 @@ double amplitude_of(const Shape& own) {
   return n > 0.0 ? sum / n : 0.0;
 }
 
-/// Turns of the spindle, less whole ones. Variants: 0 rpm/60 · t (a spindle that keeps its rate), 1 the integral of rpm. `ratio`: true rate over rpm.
+/// Turns of the spindle, less whole ones. Variants: 0 rpm/60 · t (a spindle that keeps its rate), 1
+/// the integral of rpm. `ratio`: true rate over rpm.
 Series spindle_turns(const Scene& s, int variant, double ratio) {
   const Series& rpm = *s.recording->column("spindle_rpm");
   Series out(rpm.size());
@@ -99,13 +104,14 @@ std::vector<NamedValue> line_parameters(const Shape& p, const Shape& own, Base) 
 Mechanism edge_force() {
   return {
       .name = "edge_force",
-      .equation = said("Fe while in contact and spinning"),
-      .words = said("a constant force of the cutting edges"),
-      .separate = said("press the same site with the spindle off and on"),
+      .equation = noop("Fe while in contact and spinning"),
+      .words = noop("a constant force of the cutting edges"),
+      .separate = noop("press the same site with the spindle off and on"),
       .seen_over = "spindle_rpm",
       .columns =
           [](const Scene& s, const Shape&) {
-            return Columns{{has(s, "spindle_rpm") ? Series(s.touching * s.spinning) : s.touching}, {}, {}};
+            return Columns{
+                {has(s, "spindle_rpm") ? Series(s.touching * s.spinning) : s.touching}, {}, {}};
           },
       .coefficients = {"edge_n"},
       .own = k_positive,
@@ -116,9 +122,9 @@ Mechanism edge_force() {
 Mechanism wear() {
   return {
       .name = "wear",
-      .equation = said("F_sim w W, W removed volume since the bur was new"),
-      .words = said("a bur that wears"),
-      .separate = said("cut the first site again last, with the worn and with a new bur"),
+      .equation = noop("F_sim w W, W removed volume since the bur was new"),
+      .words = noop("a bur that wears"),
+      .separate = noop("cut the first site again last, with the worn and with a new bur"),
       .seen_over = "removed_mm3",
       .needs = {"removed_mm3"},
       .shape = {{"variant", 0, 1, false, false}},
@@ -145,16 +151,22 @@ Mechanism wear() {
 Mechanism run_out() {
   return {
       .name = "run_out",
-      .equation = said("A sin(2 pi turns + phase) in contact and spinning"),
-      .words = said("a bur that turns off its axis"),
-      .separate = said("record the force at more than twice the spindle's rate"),
+      .equation = noop("A sin(2 pi turns + phase) in contact and spinning"),
+      .words = noop("a bur that turns off its axis"),
+      .separate = noop("record the force at more than twice the spindle's rate"),
       .needs = {"spindle_rpm"},
       .shape = {{"variant", 0, 1, false, false}, {"rate_ratio", 0.999, 1.001, false, true}},
       .grid =
-          [](const Scene& s) {  // a rate that is written in whole turns per minute is off by up to 3e-5
-            return s.spinning.maxCoeff() > 0.0 ? Grid{{0.0, 1.0}, {0.0, 1.0 - k_slip}, {0.0, 1.0 + k_slip}, {1.0, 1.0}} : Grid{};
+          [](const Scene&
+                 s) {  // a rate that is written in whole turns per minute is off by up to 3e-5
+            return s.spinning.maxCoeff() > 0.0
+                       ? Grid{{0.0, 1.0}, {0.0, 1.0 - k_slip}, {0.0, 1.0 + k_slip}, {1.0, 1.0}}
+                       : Grid{};
           },
-      .columns = [](const Scene& s, const Shape& p) { return line(s, spindle_turns(s, static_cast<int>(p[0]), p[1]), s.touching * s.spinning); },
+      .columns =
+          [](const Scene& s, const Shape& p) {
+            return line(s, spindle_turns(s, static_cast<int>(p[0]), p[1]), s.touching * s.spinning);
+          },
       .parameters =
           [](const Shape&, const Shape& own, Base) {
             std::vector<NamedValue> p{{"amplitude_n", amplitude_of(own)}};
@@ -165,7 +177,8 @@ Mechanism run_out() {
         if (value("eccentricity_um") != 0.0 || value("rate_ratio") != 1.0) return std::nullopt;
         const SinCos phase = det_sincos(2 * k_pi * value("phase_turns"));
         const double amplitude = value("amplitude_n");
-        return Numbers{{value("by_clock") < 0.5 ? 1.0 : 0.0, 1.0}, {amplitude * phase.cos, amplitude * phase.sin}};
+        return Numbers{{value("by_clock") < 0.5 ? 1.0 : 0.0, 1.0},
+                       {amplitude * phase.cos, amplitude * phase.sin}};
       },
       .shape_in_term =
           [](const Shape& shape, TermParameters& out) {
@@ -180,9 +193,9 @@ Mechanism run_out() {
 Mechanism chatter() {
   return {
       .name = "chatter",
-      .equation = said("A sin(2 pi f t + phase) in contact"),
-      .words = said("a vibration at a rate that is not the spindle's"),
-      .separate = said("press at two depths and two spindle speeds: chatter keeps its rate"),
+      .equation = noop("A sin(2 pi f t + phase) in contact"),
+      .words = noop("a vibration at a rate that is not the spindle's"),
+      .separate = noop("press at two depths and two spindle speeds: chatter keeps its rate"),
       .shape = {{"frequency_hz", 0.1, 1e5, false, true}, {"spinning", 0, 1, false, false}},
       .grid =
           [](const Scene& s) {
@@ -208,9 +221,11 @@ Mechanism chatter() {
 Mechanism interference() {
   return {
       .name = "interference",
-      .equation = said("A sin(2 pi f t + phase), in air too"),
-      .words = said("a pick-up of a fixed frequency, as from the mains; the frequency is the one that the sampling shows"),
-      .separate = said("record in air, the drive at rest: interference stays; at another sampling rate, an alias moves"),
+      .equation = noop("A sin(2 pi f t + phase), in air too"),
+      .words = noop(
+          "a pick-up of a fixed frequency, as from the mains; the frequency is the one that the sampling shows"),
+      .separate = noop(
+          "record in air, the drive at rest: interference stays; at another sampling rate, an alias moves"),
       .shape = {{"frequency_hz", 0.1, 1e5, false, true}},
       .grid =
           [](const Scene& s) {
@@ -232,9 +247,9 @@ Mechanism interference() {
 Mechanism coolant() {
   return {
       .name = "coolant",
-      .equation = said("F_sim w wet"),
-      .words = said("water, which changes the cutting force"),
-      .separate = said("press one site dry, wet, and dry again"),
+      .equation = noop("F_sim w wet"),
+      .words = noop("water, which changes the cutting force"),
+      .separate = noop("press one site dry, wet, and dry again"),
       .seen_over = "wet",
       .needs = {"wet"},
       .columns =
@@ -248,9 +263,9 @@ Mechanism coolant() {
 Mechanism thermal_softening() {
   return {
       .name = "thermal_softening",
-      .equation = said("-F_sim h (T - T0), T0 of the first row"),
-      .words = said("tissue that softens as it warms"),
-      .separate = said("cut for a minute, rest for a minute, cut again"),
+      .equation = noop("-F_sim h (T - T0), T0 of the first row"),
+      .words = noop("tissue that softens as it warms"),
+      .separate = noop("cut for a minute, rest for a minute, cut again"),
       .seen_over = "temperature_c",
       .needs = {"temperature_c"},
       .columns =

@@ -7,9 +7,11 @@
 namespace cavum::explain {
 namespace {
 
-constexpr double k_ridge = 1e-10;  // of a column's own norm: dependent columns share their coefficient instead of failing
+constexpr double k_ridge =
+    1e-10;  // of a column's own norm: dependent columns share their coefficient instead of failing
 constexpr Eigen::Index k_max_columns = 80;
-constexpr double k_rig_doubt = 0.1;  // relative: rig.toml's k and c count as known to 10 %, which only matters where the data are silent
+constexpr double k_rig_doubt = 0.1;  // relative: rig.toml's k and c count as known to 10 %, which
+                                     // only matters where the data are silent
 
 /// Which columns of the products a parameter sums up.
 struct Parameter {
@@ -18,13 +20,15 @@ struct Parameter {
   int count = 0;
   Eigen::Index session = -1;  ///< the only one in which it acts; -1 = all
   void add(Eigen::Index c, double f = 1.0) {
-    if (count == 9) return;  // more than eight causes that change one column: the search stops far earlier
+    if (count == 9)
+      return;  // more than eight causes that change one column: the search stops far earlier
     column[count] = c;
     factor[count++] = f;
   }
 };
 
-using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, k_max_columns, k_max_columns>;
+using Small =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, k_max_columns, k_max_columns>;
 using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, k_max_columns, 1>;
 
 /// k, c, own coefficients of each hypothesis in turn, tangents of each in turn. How many.
@@ -42,15 +46,18 @@ Eigen::Index lay_out(const std::vector<const Hypothesis*>& model, Parameter* p) 
       }
   }
   for (const auto* h : model)
-    for (Eigen::Index i = 0; i < h->tangent_count && n < k_max_columns; ++i) p[n++].add(h->tangents + i);
+    for (Eigen::Index i = 0; i < h->tangent_count && n < k_max_columns; ++i)
+      p[n++].add(h->tangents + i);
   return n;
 }
 
 /// Product of columns i and j over one fold, under spread `u`.
-double product_in(const Products& products, std::size_t u, Eigen::Index fold, Eigen::Index i, Eigen::Index j) {
+double product_in(const Products& products, std::size_t u, Eigen::Index fold, Eigen::Index i,
+                  Eigen::Index j) {
   double out = products.folds[static_cast<std::size_t>(fold)](i, j);
   for (const auto& s : products.sessions)
-    if (static_cast<Eigen::Index>(s.fold) == fold) out -= s.with_effects.row(i).dot(s.inverse[u] * s.with_effects.row(j).transpose());
+    if (static_cast<Eigen::Index>(s.fold) == fold)
+      out -= s.with_effects.row(i).dot(s.inverse[u] * s.with_effects.row(j).transpose());
   return out;
 }
 
@@ -63,13 +70,14 @@ Eigen::Index parameter_of(Eigen::Index column, const Parameter* p, Eigen::Index 
   return -1;
 }
 
-/// Column 0, less what of the model's changes of k and c (at those that were taken) is not taken yet, and with what was taken of causes that the
-/// model does not have.
+/// Column 0, less what of the model's changes of k and c (at those that were taken) is not taken
+/// yet, and with what was taken of causes that the model does not have.
 Weighted what_is_left(const Taken& taken, const Parameter* p, Eigen::Index n) {
   Weighted out{{0, 1.0}};
   for (const auto& [column, value] : taken.own)
     if (parameter_of(column, p, n) < 0) out.emplace_back(column, value);
-  const auto add = [&](const Parameter& of, double value, const std::vector<Eigen::Index>& already) {
+  const auto add = [&](const Parameter& of, double value,
+                       const std::vector<Eigen::Index>& already) {
     std::map<Eigen::Index, double> factor;
     for (int at = 1; at < of.count; ++at) factor[of.column[at]] += of.factor[at];
     for (const Eigen::Index c : already) factor[c] -= 1.0;
@@ -81,8 +89,10 @@ Weighted what_is_left(const Taken& taken, const Parameter* p, Eigen::Index n) {
   return out;
 }
 
-/// Left and right side of the normal equations under spread `u`, from the sums of products. The squares of the force.
-double equations(const Eigen::MatrixXd& sums, const Products& products, std::size_t u, int left_out, const Parameter* p, Small& a, Vector& b) {
+/// Left and right side of the normal equations under spread `u`, from the sums of products. The
+/// squares of the force.
+double equations(const Eigen::MatrixXd& sums, const Products& products, std::size_t u, int left_out,
+                 const Parameter* p, Small& a, Vector& b) {
   const auto product = [&](Eigen::Index fold, Eigen::Index i, Eigen::Index j) {
     if (fold < 0) return sums(i, j);
     return fold == left_out ? 0.0 : product_in(products, u, fold, i, j);
@@ -91,13 +101,15 @@ double equations(const Eigen::MatrixXd& sums, const Products& products, std::siz
   for (Eigen::Index i = 0; i < b.size(); ++i) {
     b[i] = 0.0;
     for (int at = 0; at < p[i].count; ++at)
-      for (const auto& [column, factor] : force) b[i] += p[i].factor[at] * factor * product(p[i].session, column, p[i].column[at]);
+      for (const auto& [column, factor] : force)
+        b[i] += p[i].factor[at] * factor * product(p[i].session, column, p[i].column[at]);
     for (Eigen::Index j = 0; j <= i; ++j) {
       const bool apart = p[i].session >= 0 && p[j].session >= 0 && p[i].session != p[j].session;
       const Eigen::Index fold = std::max(p[i].session, p[j].session);
       double sum = 0.0;
       for (int at = 0; at < p[i].count && !apart; ++at)
-        for (int v = 0; v < p[j].count; ++v) sum += p[i].factor[at] * p[j].factor[v] * product(fold, p[i].column[at], p[j].column[v]);
+        for (int v = 0; v < p[j].count; ++v)
+          sum += p[i].factor[at] * p[j].factor[v] * product(fold, p[i].column[at], p[j].column[v]);
       a(i, j) = a(j, i) = sum;
     }
   }
@@ -107,8 +119,8 @@ double equations(const Eigen::MatrixXd& sums, const Products& products, std::siz
   return squares;
 }
 
-FitResult fit_under(const SpreadSums& sums, const Products& products, std::size_t u, const Parameter* p, Eigen::Index n, int left_out,
-                    bool covariance) {
+FitResult fit_under(const SpreadSums& sums, const Products& products, std::size_t u,
+                    const Parameter* p, Eigen::Index n, int left_out, bool covariance) {
   Small a(n, n);
   Vector b(n);
   double yy = equations(sums.all, products, u, left_out, p, a, b);
@@ -123,7 +135,8 @@ FitResult fit_under(const SpreadSums& sums, const Products& products, std::size_
   Vector scale(n);
   for (Eigen::Index i = 0; i < n; ++i) scale[i] = a(i, i) > 0.0 ? 1.0 / std::sqrt(a(i, i)) : 0.0;
   for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < n; ++j) a(i, j) = i == j ? 1.0 + k_ridge : a(i, j) * scale[i] * scale[j];
+    for (Eigen::Index j = 0; j < n; ++j)
+      a(i, j) = i == j ? 1.0 + k_ridge : a(i, j) * scale[i] * scale[j];
   const Vector bs = b.cwiseProduct(scale);
   const Eigen::LDLT<Small> solver(a);
   FitResult out;
@@ -134,7 +147,8 @@ FitResult fit_under(const SpreadSums& sums, const Products& products, std::size_
   for (const auto& [column, value] : products.taken.own)
     if (const Eigen::Index i = parameter_of(column, p, n); i >= 0) out.value[i] += value;
   out.chi2 = (out.solved ? yy - bs.dot(xs) : yy) + sums.log_det;
-  if (covariance) out.covariance = scale.asDiagonal() * solver.solve(Small::Identity(n, n)) * scale.asDiagonal();
+  if (covariance)
+    out.covariance = scale.asDiagonal() * solver.solve(Small::Identity(n, n)) * scale.asDiagonal();
   return out;
 }
 
@@ -143,7 +157,8 @@ FitResult fit_under(const SpreadSums& sums, const Products& products, std::size_
 Eigen::Index Hypothesis::parameters() const {
   Eigen::Index fitted = 0;
   const auto& ranges = mechanism_at(term.mechanism).shape;
-  for (std::size_t i = 0; i < ranges.size(); ++i) fitted += ranges[i].fitted && term.shape[i] != 0.0;
+  for (std::size_t i = 0; i < ranges.size(); ++i)
+    fitted += ranges[i].fitted && term.shape[i] != 0.0;
   return own + repeats - 1 + fitted;
 }
 
@@ -152,11 +167,14 @@ namespace {
 /// Sums under spread `u` over one fold, or over all of them (fold = -1).
 SpreadSums integrated(const Products& products, std::size_t u, int fold) {
   const auto counts = [&](std::size_t f) { return fold < 0 || static_cast<int>(f) == fold; };
-  SpreadSums out{Eigen::MatrixXd::Zero(products.folds.front().rows(), products.folds.front().cols()), 0.0};
+  SpreadSums out{
+      Eigen::MatrixXd::Zero(products.folds.front().rows(), products.folds.front().cols()), 0.0};
   for (std::size_t f = 0; f < products.folds.size(); ++f)
     if (counts(f)) out.all += products.folds[f];
-  const auto sessions = std::count_if(products.sessions.begin(), products.sessions.end(), [&](const auto& s) { return counts(s.fold); });
-  Eigen::MatrixXd with(out.all.rows(), sessions * static_cast<Eigen::Index>(k_session_effects)), shrunk = with;  // side by side
+  const auto sessions = std::count_if(products.sessions.begin(), products.sessions.end(),
+                                      [&](const auto& s) { return counts(s.fold); });
+  Eigen::MatrixXd with(out.all.rows(), sessions * static_cast<Eigen::Index>(k_session_effects)),
+      shrunk = with;  // side by side
   Eigen::Index at = 0;
   for (const auto& s : products.sessions) {
     if (!counts(s.fold)) continue;
@@ -185,10 +203,12 @@ void integrate(Products& products) {
   for (auto& s : products.sessions) {
     s.log_det.assign(products.tried.size(), 0.0);
     s.inverse.clear();
-    for (std::size_t u = 0; u < products.tried.size(); ++u) s.inverse.push_back(shrunk_inverse(s.effects, products.tried[u], s.log_det[u]));
+    for (std::size_t u = 0; u < products.tried.size(); ++u)
+      s.inverse.push_back(shrunk_inverse(s.effects, products.tried[u], s.log_det[u]));
   }
   products.spreads.clear();
-  for (std::size_t u = 0; u < products.tried.size(); ++u) products.spreads.push_back(integrated(products, u, -1));
+  for (std::size_t u = 0; u < products.tried.size(); ++u)
+    products.spreads.push_back(integrated(products, u, -1));
 }
 
 std::vector<SpreadSums> sums_without(const Products& products, int left_out) {
@@ -201,8 +221,8 @@ std::vector<SpreadSums> sums_without(const Products& products, int left_out) {
   return out;
 }
 
-FitResult fit(const std::vector<SpreadSums>& sums, const Products& products, const std::vector<const Hypothesis*>& model, int left_out,
-              bool covariance) {
+FitResult fit(const std::vector<SpreadSums>& sums, const Products& products,
+              const std::vector<const Hypothesis*>& model, int left_out, bool covariance) {
   Parameter p[k_max_columns];
   const Eigen::Index n = lay_out(model, p);
   FitResult best;
@@ -213,9 +233,11 @@ FitResult fit(const std::vector<SpreadSums>& sums, const Products& products, con
   return best;
 }
 
-FitResult fit(const Products& products, const std::vector<const Hypothesis*>& model, int left_out, bool covariance) {
-  return left_out < 0 ? fit(products.spreads, products, model, -1, covariance)
-                      : fit(sums_without(products, left_out), products, model, left_out, covariance);
+FitResult fit(const Products& products, const std::vector<const Hypothesis*>& model, int left_out,
+              bool covariance) {
+  return left_out < 0
+             ? fit(products.spreads, products, model, -1, covariance)
+             : fit(sums_without(products, left_out), products, model, left_out, covariance);
 }
 
 }  // namespace cavum::explain

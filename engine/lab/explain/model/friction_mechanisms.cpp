@@ -13,15 +13,18 @@ namespace {
 using Shape = std::vector<double>;
 using Grid = std::vector<Shape>;
 
-/// Fc tanh(V/v0) at Fc = 1 by the engine's own law. Where the speed is uncertain by sd the mean over that uncertainty is
-/// close to tanh(V/sqrt(v0² + sd²·pi/2)): equal slope at 0, equal ends.
+/// Fc tanh(V/v0) at Fc = 1 by the engine's own law. Where the speed is uncertain by sd the mean
+/// over that uncertainty is close to tanh(V/sqrt(v0² + sd²·pi/2)): equal slope at 0, equal ends.
 Series sign_of_motion(const Scene& s, double v0_mm_s) {
   const Series& v = s.motion->v_mm_s;
   const Series* slide = s.recording->friction_by_path ? s.recording->column("slide_mm_s") : nullptr;
   Series out(v.size());
   for (Eigen::Index i = 0; i < out.size(); ++i) {
-    const double width = std::sqrt(v0_mm_s * v0_mm_s + 1.5708 * s.motion->sd_v_mm_s[i] * s.motion->sd_v_mm_s[i]);
-    const double whole = slide != nullptr ? std::hypot(v[i], (*slide)[i]) : 0.0;  // friction is against the tip's motion, whichever way that goes
+    const double width =
+        std::sqrt(v0_mm_s * v0_mm_s + 1.5708 * s.motion->sd_v_mm_s[i] * s.motion->sd_v_mm_s[i]);
+    const double whole =
+        slide != nullptr ? std::hypot(v[i], (*slide)[i])
+                         : 0.0;  // friction is against the tip's motion, whichever way that goes
     out[i] = whole > 0.0 ? sliding_share(whole, width) * v[i] / whole : sliding_share(v[i], width);
   }
   return out;
@@ -30,7 +33,8 @@ Series sign_of_motion(const Scene& s, double v0_mm_s) {
 /// These parts of the speed that the fastest tenth of the motion exceeds.
 std::vector<double> speeds(const Scene& s, std::initializer_list<double> parts) {
   std::vector<double> v;
-  for (Eigen::Index i = 0; i < s.motion->v_mm_s.size(); ++i) v.push_back(std::fabs(s.motion->v_mm_s[i]));
+  for (Eigen::Index i = 0; i < s.motion->v_mm_s.size(); ++i)
+    v.push_back(std::fabs(s.motion->v_mm_s[i]));
   const double fast_mm_s = quantile(std::move(v), 0.9);
   std::vector<double> out;
   for (const double p : parts) out.push_back(std::max(1e-5, p * fast_mm_s));
@@ -48,13 +52,15 @@ Grid as_grid(const std::vector<double>& values) {
 Mechanism coulomb_friction() {
   return {
       .name = "coulomb_friction",
-      .equation = said("Fc tanh(V/v0), in air too"),
-      .words = said("dry friction of joints or guides"),
-      .separate = said("stroke to and fro in air: it flips with the direction"),
+      .equation = noop("Fc tanh(V/v0), in air too"),
+      .words = noop("dry friction of joints or guides"),
+      .separate = noop("stroke to and fro in air: it flips with the direction"),
       .seen_over = "v_mm_s",
       .shape = {{"v0_mm_s", 1e-5, 1000, true, true}},
       .ends =
-          [](const Scene& s) { return std::pair(0.0, fastest_mm_s(s)); },  // a tanh wider than the motion is fast is friction in proportion to speed
+          [](const Scene& s) {
+            return std::pair(0.0, fastest_mm_s(s));
+          },  // a tanh wider than the motion is fast is friction in proportion to speed
       .grid =
           [](const Scene& s) {
             return as_grid(speeds(s, {0.001, 0.01, 0.03, 0.1, 0.3, 0.8}));
@@ -72,9 +78,9 @@ Mechanism coulomb_friction() {
 Mechanism stribeck_friction() {
   return {
       .name = "stribeck_friction",
-      .equation = said("[Fc + (Fs - Fc) e^(-(V/vs)^2)] tanh(V/v0), in air too"),
-      .words = said("friction that falls as the motion becomes faster"),
-      .separate = said("stroke to and fro in air at five speeds, the slowest near 0.01 mm/s"),
+      .equation = noop("[Fc + (Fs - Fc) e^(-(V/vs)^2)] tanh(V/v0), in air too"),
+      .words = noop("friction that falls as the motion becomes faster"),
+      .separate = noop("stroke to and fro in air at five speeds, the slowest near 0.01 mm/s"),
       .seen_over = "v_mm_s",
       .shape = {{"vs_mm_s", 1e-5, 100, true, true}, {"v0_mm_s", 1e-5, 100, true, true}},
       .grid =
@@ -87,17 +93,22 @@ Mechanism stribeck_friction() {
       .columns =
           [](const Scene& s, const Shape& p) {
             const Series sign = sign_of_motion(s, p[1]);
-            const Series spread = 1.0 + 2.0 * (s.motion->sd_v_mm_s / p[0]).square();  // mean over the uncertainty of V
+            const Series spread =
+                1.0 +
+                2.0 * (s.motion->sd_v_mm_s / p[0]).square();  // mean over the uncertainty of V
             Series still(sign.size());
-            for (Eigen::Index i = 0; i < still.size(); ++i) still[i] = static_share(s.motion->v_mm_s[i], p[0] * std::sqrt(spread[i]));
+            for (Eigen::Index i = 0; i < still.size(); ++i)
+              still[i] = static_share(s.motion->v_mm_s[i], p[0] * std::sqrt(spread[i]));
             return Columns{{sign, sign * still / spread.sqrt()}, {}, {}};
           },
       .parameters =
           [](const Shape& p, const Shape& own, Base) {
-            return std::vector<NamedValue>{{"fc_n", own[0]}, {"fs_n", own[0] + own[1]}, {"vs_mm_s", p[0]}, {"v0_mm_s", p[1]}};
+            return std::vector<NamedValue>{
+                {"fc_n", own[0]}, {"fs_n", own[0] + own[1]}, {"vs_mm_s", p[0]}, {"v0_mm_s", p[1]}};
           },
       .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
-        return Numbers{{value("vs_mm_s"), value("v0_mm_s")}, {value("fc_n"), value("fs_n") - value("fc_n")}};
+        return Numbers{{value("vs_mm_s"), value("v0_mm_s")},
+                       {value("fc_n"), value("fs_n") - value("fc_n")}};
       },
       .own = k_positive,
       .variant_of = "coulomb_friction",
@@ -110,9 +121,9 @@ Mechanism stribeck_friction() {
 Mechanism viscous_friction() {
   return {
       .name = "viscous_friction",
-      .equation = said("b V, in air too"),
-      .words = said("friction in proportion to speed"),
-      .separate = said("stroke in air at three speeds"),
+      .equation = noop("b V, in air too"),
+      .words = noop("friction in proportion to speed"),
+      .separate = noop("stroke in air at three speeds"),
       .seen_over = "v_mm_s",
       .columns =
           [](const Scene& s, const Shape&) {

@@ -8,7 +8,8 @@ namespace {
 
 constexpr double k_open_instant = 0.25;  // of the way from row to row
 
-/// The way from one row to the next: where the contact acts, and the motion at both ends, times the tissue's relative k and c.
+/// The way from one row to the next: where the contact acts, and the motion at both ends, times the
+/// tissue's relative k and c.
 struct Way {
   double x0, v0, x1, v1, dt_s;
   double on0, on1;     ///< `active` of the rows
@@ -24,9 +25,13 @@ Way way_to(const Scene& s, Eigen::Index i) {
         std::max(1e-12, s.dt_s[i - 1]),
         s.active[i - 1],
         s.active[i]};
-  // a position that leaves the instant of contact open has no jump: what is expected then changes evenly
-  if (std::fabs(w.on1 - w.on0) < 0.5 || s.motion->sd_x_mm[i] > k_open_instant * std::fabs(w.x1 - w.x0)) return w;
-  const double f0 = s.base.k_n_per_mm * w.x0 + s.base.c_n_s_per_mm * w.v0, f1 = s.base.k_n_per_mm * w.x1 + s.base.c_n_s_per_mm * w.v1;
+  // a position that leaves the instant of contact open has no jump: what is expected then changes
+  // evenly
+  if (std::fabs(w.on1 - w.on0) < 0.5 ||
+      s.motion->sd_x_mm[i] > k_open_instant * std::fabs(w.x1 - w.x0))
+    return w;
+  const double f0 = s.base.k_n_per_mm * w.x0 + s.base.c_n_s_per_mm * w.v0,
+               f1 = s.base.k_n_per_mm * w.x1 + s.base.c_n_s_per_mm * w.v1;
   const auto crossing = [](double a, double b) { return a * b < 0.0 ? a / (a - b) : 0.5; };
   w.jump = w.x0 * w.x1 < 0.0 ? crossing(w.x0, w.x1) : crossing(f0, f1);
   return w;
@@ -54,7 +59,9 @@ double lag_over(double y, double u0, double u1, const Way& w, double tau_s) {
   return lag(y, w.on1 * middle, w.on1 * u1, (1.0 - w.jump) * w.dt_s, tau_s);
 }
 
-Columns nothing(const Scene& s) { return {{}, Series::Zero(s.force_n.size()), Series::Zero(s.force_n.size())}; }
+Columns nothing(const Scene& s) {
+  return {{}, Series::Zero(s.force_n.size()), Series::Zero(s.force_n.size())};
+}
 
 }  // namespace
 
@@ -66,7 +73,9 @@ Columns delayed(const Scene& s, double tau_s) {
     for (Eigen::Index i = rows.begin; i < rows.end; ++i) {
       const double then = t[i] - tau_s;
       while (j + 2 < rows.end && t[j + 1] <= then) ++j;
-      if (then <= t[rows.begin] || then >= t[rows.end - 1]) {  // before and after the recording the tool stood where it begins and ends
+      if (then <= t[rows.begin] ||
+          then >= t[rows.end -
+                    1]) {  // before and after the recording the tool stood where it begins and ends
         const Eigen::Index end = then <= t[rows.begin] ? rows.begin : rows.end - 1;
         out.spring[i] = s.spring_mm[end];
         out.damper[i] = s.damper_mm_s[end];
@@ -104,13 +113,16 @@ Columns lagged(const Scene& s, double tau_s) {
 
 Series resonance(const Scene& s, const Series& u, double frequency_hz, double damping) {
   Series out = Series::Zero(u.size());
-  const double w = 2 * 3.14159265358979323846 * frequency_hz, fade = damping * w, swing = w * std::sqrt(1.0 - damping * damping);
+  const double w = 2 * 3.14159265358979323846 * frequency_hz, fade = damping * w,
+               swing = w * std::sqrt(1.0 - damping * damping);
   for (const auto& rows : s.recording->sessions) {
     double y = u[rows.begin], slope = 0.0;
     out[rows.begin] = y;
     for (Eigen::Index i = rows.begin + 1; i < rows.end; ++i) {
-      // exact for u straight from row to row: the response follows u, behind by 2 damping/w, and what is left of before rings down
-      const double dt = s.dt_s[i - 1], rate = dt > 0.0 ? (u[i] - u[i - 1]) / dt : 0.0, behind = 2.0 * damping / w * rate;
+      // exact for u straight from row to row: the response follows u, behind by 2 damping/w, and
+      // what is left of before rings down
+      const double dt = s.dt_s[i - 1], rate = dt > 0.0 ? (u[i] - u[i - 1]) / dt : 0.0,
+                   behind = 2.0 * damping / w * rate;
       const double off = y - (u[i - 1] - behind), off_slope = slope - rate;
       const double down = std::exp(-fade * dt), c = std::cos(swing * dt), d = std::sin(swing * dt);
       const double b = (off_slope + fade * off) / swing;
@@ -124,7 +136,8 @@ Series resonance(const Scene& s, const Series& u, double frequency_hz, double da
 }
 
 Columns in_series(const Scene& s, double mm_per_n) {
-  const double k = s.base.k_n_per_mm, c = s.base.c_n_s_per_mm, softer = 1.0 + k * mm_per_n, tau_s = c * mm_per_n / softer;
+  const double k = s.base.k_n_per_mm, c = s.base.c_n_s_per_mm, softer = 1.0 + k * mm_per_n,
+               tau_s = c * mm_per_n / softer;
   Columns out = nothing(s);
   for (const auto& rows : s.recording->sessions) {
     double x = 0.0, v = 0.0;

@@ -12,12 +12,16 @@ namespace {
 /// What a record leaves out.
 void complete(Mechanism& m) {
   m.term = find_term_kind(m.name);
-  if (!m.grid && m.shape.empty()) m.grid = [](const Scene&) { return std::vector<std::vector<double>>(1); };
-  const bool all_fitted = std::all_of(m.shape.begin(), m.shape.end(), [](const ShapeRange& s) { return s.fitted; });
+  if (!m.grid && m.shape.empty())
+    m.grid = [](const Scene&) { return std::vector<std::vector<double>>(1); };
+  const bool all_fitted =
+      std::all_of(m.shape.begin(), m.shape.end(), [](const ShapeRange& s) { return s.fitted; });
   if (m.parameters || (m.coefficients.empty() && m.shape.empty())) return;
-  m.parameters = [names = m.coefficients, ranges = m.shape](const auto& shape, const auto& own, Base) {
+  m.parameters = [names = m.coefficients, ranges = m.shape](const auto& shape, const auto& own,
+                                                            Base) {
     std::vector<NamedValue> out;
-    for (std::size_t i = 0; i < std::min(names.size(), own.size()); ++i) out.push_back({names[i], own[i]});
+    for (std::size_t i = 0; i < std::min(names.size(), own.size()); ++i)
+      out.push_back({names[i], own[i]});
     for (std::size_t i = 0; i < ranges.size(); ++i)
       if (ranges[i].fitted) out.push_back({ranges[i].name, shape[i]});
     return out;
@@ -33,16 +37,20 @@ void complete(Mechanism& m) {
 
 /// Throws std::logic_error on a record that cannot be used.
 void check(const std::vector<Mechanism>& all) {
-  const auto wrong = [](const std::string& what) { throw std::logic_error("table of laws: " + what); };
+  const auto wrong = [](const std::string& what) {
+    throw std::logic_error("table of laws: " + what);
+  };
   std::set<std::string> names;
   for (const auto& m : all) {
     for (const char* text : {m.name, m.equation, m.words, m.separate})
-      if (text == nullptr) wrong(fmt::format("{} lacks a text", m.name != nullptr ? m.name : "a record"));
+      if (text == nullptr)
+        wrong(fmt::format("{} lacks a text", m.name != nullptr ? m.name : "a record"));
     const std::string name = m.name;
     if (!names.insert(name).second) wrong("two are called " + name);
     if (!m.grid || !m.columns || !m.parameters) wrong(name + " lacks a function");
     if (m.simpler)
-      if (const auto fewer = m.simpler(std::vector<double>(m.shape.size(), 1.0)); !fewer.empty() && fewer.size() != m.shape.size())
+      if (const auto fewer = m.simpler(std::vector<double>(m.shape.size(), 1.0));
+          !fewer.empty() && fewer.size() != m.shape.size())
         wrong(name + " says its law with fewer numbers in another number of shapes");
     if (m.term == nullptr) {
       if (m.from_term || m.shape_in_term) wrong(name + " has no force term, and speaks of one");
@@ -52,7 +60,8 @@ void check(const std::vector<Mechanism>& all) {
   }
   for (const auto& m : all)
     for (const char* other : {m.variant_of, m.like_when_short})
-      if (other != nullptr && !names.contains(other)) wrong(fmt::format("{} speaks of {}, which is not there", m.name, other));
+      if (other != nullptr && !names.contains(other))
+        wrong(fmt::format("{} speaks of {}, which is not there", m.name, other));
   for (const auto& kind : term_kinds())
     if (!names.contains(kind.name)) wrong(fmt::format("the force term {} is no law", kind.name));
 }
@@ -62,7 +71,8 @@ void check(const std::vector<Mechanism>& all) {
 const std::vector<Mechanism>& mechanisms() {
   static const std::vector<Mechanism> all = [] {
     std::vector<Mechanism> found;
-    for (const auto family : {offset_mechanisms, friction_mechanisms, sensor_mechanisms, play_mechanisms, tissue_mechanisms, cutting_mechanisms})
+    for (const auto family : {offset_mechanisms, friction_mechanisms, sensor_mechanisms,
+                              play_mechanisms, tissue_mechanisms, cutting_mechanisms})
       for (auto& m : family()) {
         complete(m);
         found.push_back(std::move(m));
@@ -92,7 +102,9 @@ bool makes_sense(const Mechanism& m, const double* own, std::size_t count) {
   return std::all_of(own, own + count, [&](double v) { return v > m.own.low && v < m.own.high; });
 }
 
-std::size_t session_groups(const Recording& r) { return r.sessions.size() <= 12 ? std::max<std::size_t>(1, r.sessions.size()) : 1; }
+std::size_t session_groups(const Recording& r) {
+  return r.sessions.size() <= 12 ? std::max<std::size_t>(1, r.sessions.size()) : 1;
+}
 
 int law_of(int at) {
   const char* law = mechanism_at(at).variant_of;

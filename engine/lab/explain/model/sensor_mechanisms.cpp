@@ -1,4 +1,5 @@
-// What the measurement does to the force: weight of the handpiece, inertia, gain, cross-talk, delay, lag, saturation.
+// What the measurement does to the force: weight of the handpiece, inertia, gain, cross-talk,
+// delay, lag, saturation.
 #include <algorithm>
 #include <cmath>
 
@@ -13,8 +14,8 @@ namespace {
 using Shape = std::vector<double>;
 using Grid = std::vector<Shape>;
 
-constexpr double k_clock_rows =
-    0.05;  // standard deviation of the instant to which a row belongs, in rows: position and force are read one after the other
+constexpr double k_clock_rows = 0.05;  // standard deviation of the instant to which a row belongs,
+                                       // in rows: position and force are read one after the other
 constexpr double k_radians = 3.14159265358979323846 / 180.0;
 
 Grid no_shape(const Scene&) { return {{}}; }
@@ -27,7 +28,8 @@ Grid lag_grid(const Scene& s) {
   return g;
 }
 
-/// The same for a delay: the jump of c V at each contact fits within a third of a row only, so parts of a row up to 8 rows.
+/// The same for a delay: the jump of c V at each contact fits within a third of a row only, so
+/// parts of a row up to 8 rows.
 Grid delay_grid(const Scene& s) {
   const double row = s.dt_s.minCoeff() > 0 ? s.dt_s.minCoeff() : 0.005;
   Grid g;
@@ -46,7 +48,8 @@ Grid saturation_grid(const Scene& s) {
   if (pressed.size() < 100) return {};
   std::sort(pressed.begin(), pressed.end());
   Grid g;
-  for (const double part : {0.6, 0.75, 0.85, 0.92, 0.96, 0.985, 0.995, 0.998, 0.9993}) g.push_back({quantile_of_sorted(pressed, part)});
+  for (const double part : {0.6, 0.75, 0.85, 0.92, 0.96, 0.985, 0.995, 0.998, 0.9993})
+    g.push_back({quantile_of_sorted(pressed, part)});
   return g;
 }
 
@@ -58,9 +61,9 @@ Columns saturation_columns(const Scene& s, const Shape& p) {
 Mechanism gravity_posture() {
   return {
       .name = "gravity_posture",
-      .equation = said("w (sin theta - sin theta0), in air too"),
-      .words = said("the weight of the handpiece, which changes with posture"),
-      .separate = said("hold the tool in air in three postures"),
+      .equation = noop("w (sin theta - sin theta0), in air too"),
+      .words = noop("the weight of the handpiece, which changes with posture"),
+      .separate = noop("hold the tool in air in three postures"),
       .seen_over = "posture_deg",
       .needs = {"posture_deg"},
       .grid = no_shape,
@@ -70,9 +73,11 @@ Mechanism gravity_posture() {
             return Columns{{(*posture * k_radians).sin(), Series::Ones(posture->size())}, {}, {}};
           },
       .parameters =
-          [](const Shape&, const Shape& own, Base) {  // beyond a right angle the zero is a bias: no posture has it
+          [](const Shape&, const Shape& own,
+             Base) {  // beyond a right angle the zero is a bias: no posture has it
             const double sine = own[0] != 0.0 ? std::clamp(-own[1] / own[0], -1.0, 1.0) : 0.0;
-            return std::vector<NamedValue>{{"weight_n", own[0]}, {"theta0_deg", std::asin(sine) / k_radians}};
+            return std::vector<NamedValue>{{"weight_n", own[0]},
+                                           {"theta0_deg", std::asin(sine) / k_radians}};
           },
   };
 }
@@ -80,9 +85,9 @@ Mechanism gravity_posture() {
 Mechanism inertia() {
   return {
       .name = "inertia",
-      .equation = said("m a, in air too"),
-      .words = said("the mass that is accelerated with the load cell"),
-      .separate = said("shake the tool in air at two rates"),
+      .equation = noop("m a, in air too"),
+      .words = noop("the mass that is accelerated with the load cell"),
+      .separate = noop("shake the tool in air at two rates"),
       .seen_over = "a_mm_s2",
       .grid = no_shape,
       .columns =
@@ -100,9 +105,10 @@ Mechanism inertia() {
 Mechanism gain_error() {
   return {
       .name = "gain_error",
-      .equation = said("g F_sim"),
-      .words = said("a load cell whose gain is off"),
-      .separate = said("hang known weights on the load cell: no recording of k and c can show its gain"),
+      .equation = noop("g F_sim"),
+      .words = noop("a load cell whose gain is off"),
+      .separate =
+          noop("hang known weights on the load cell: no recording of k and c can show its gain"),
       .seen_over = "simulated_n",
       .grid = no_shape,
       .columns =
@@ -117,9 +123,9 @@ Mechanism gain_error() {
 Mechanism cross_talk() {
   return {
       .name = "cross_talk",
-      .equation = said("a Fy + b Fz"),
-      .words = said("lateral force that leaks into the feed's channel"),
-      .separate = said("press sideways in air"),
+      .equation = noop("a Fy + b Fz"),
+      .words = noop("lateral force that leaks into the feed's channel"),
+      .separate = noop("press sideways in air"),
       .seen_over = "fy_n",
       .needs = {"fy_n", "fz_n"},
       .grid = no_shape,
@@ -138,9 +144,9 @@ Mechanism cross_talk() {
 Mechanism delay() {
   return {
       .name = "delay",
-      .equation = said("F_sim(t - tau) - F_sim(t)"),
-      .words = said("a force channel that comes later than the position"),
-      .separate = said("press in fast ramps at two speeds, with sharp reversals"),
+      .equation = noop("F_sim(t - tau) - F_sim(t)"),
+      .words = noop("a force channel that comes later than the position"),
+      .separate = noop("press in fast ramps at two speeds, with sharp reversals"),
       .seen_over = "v_mm_s",
       .shape = {{"tau_s", 2e-4, 2.0, true, true}},
       .grid = delay_grid,
@@ -153,9 +159,9 @@ Mechanism delay() {
 Mechanism low_pass() {
   return {
       .name = "low_pass",
-      .equation = said("lag(F_sim, tau) - F_sim"),
-      .words = said("a force channel that is smoothed by a filter"),
-      .separate = said("press in fast ramps at two speeds, with sharp reversals"),
+      .equation = noop("lag(F_sim, tau) - F_sim"),
+      .words = noop("a force channel that is smoothed by a filter"),
+      .separate = noop("press in fast ramps at two speeds, with sharp reversals"),
       .seen_over = "v_mm_s",
       .shape = {{"tau_s", 2e-4, 2.0, true, true}},
       .grid = lag_grid,
@@ -169,10 +175,10 @@ Mechanism low_pass() {
 Mechanism position_late() {
   return {
       .name = "position_late",
-      .equation = said("F_sim(t + tau) - F_sim(t)"),
-      .words = said("a position channel that comes later than the force"),
-      .separate =
-          said("press in fast ramps at two speeds with sharp reversals, and shake the tool in air: a mass shows there, a late position does not"),
+      .equation = noop("F_sim(t + tau) - F_sim(t)"),
+      .words = noop("a position channel that comes later than the force"),
+      .separate = noop(
+          "press in fast ramps at two speeds with sharp reversals, and shake the tool in air: a mass shows there, a late position does not"),
       .seen_over = "v_mm_s",
       .shape = {{"tau_s", 2e-4, 2.0, true, true}},
       .grid = delay_grid,
@@ -195,18 +201,26 @@ Grid ringing_grid(const Scene& s) {
 Mechanism ringing() {
   return {
       .name = "ringing",
-      .equation = said("s (y - F_sim) + m y_a, y and y_a the response of a resonance at f to F_sim and to the acceleration, in air too"),
-      .words = said("a load cell or holder that swings at its own frequency after each jerk"),
-      .separate = said("tap the holder in air, and press in ramps that end suddenly: the same frequency rings down after each"),
+      .equation = noop(
+          "s (y - F_sim) + m y_a, y and y_a the response of a resonance at f to F_sim and to the acceleration, in air too"),
+      .words = noop("a load cell or holder that swings at its own frequency after each jerk"),
+      .separate = noop(
+          "tap the holder in air, and press in ramps that end suddenly: the same frequency rings down after each"),
       .shape = {{"frequency_hz", 1.0, 1e4, true, true}, {"damping_ratio", 0.003, 0.7, true, true}},
       .grid = ringing_grid,
       .columns =
           [](const Scene& s, const Shape& p) {
-            return Columns{{resonance(s, s.force_n, p[0], p[1]) - s.force_n, resonance(s, s.motion->a_mm_s2, p[0], p[1])}, {}, {}};
+            return Columns{{resonance(s, s.force_n, p[0], p[1]) - s.force_n,
+                            resonance(s, s.motion->a_mm_s2, p[0], p[1])},
+                           {},
+                           {}};
           },
       .parameters =
           [](const Shape& p, const Shape& own, Base) {
-            return std::vector<NamedValue>{{"share", own[0]}, {"frequency_hz", p[0]}, {"damping_ratio", p[1]}, {"mass_kg", own[1] * 1000.0}};
+            return std::vector<NamedValue>{{"share", own[0]},
+                                           {"frequency_hz", p[0]},
+                                           {"damping_ratio", p[1]},
+                                           {"mass_kg", own[1] * 1000.0}};
           },
       .plainer = "inertia",
   };
@@ -215,9 +229,9 @@ Mechanism ringing() {
 Mechanism saturation() {
   return {
       .name = "saturation",
-      .equation = said("min(F_sim, Fmax) - F_sim"),
-      .words = said("a force channel that saturates"),
-      .separate = said("press harder, with a load cell of a larger range"),
+      .equation = noop("min(F_sim, Fmax) - F_sim"),
+      .words = noop("a force channel that saturates"),
+      .separate = noop("press harder, with a load cell of a larger range"),
       .seen_over = "simulated_n",
       .shape = {{"f_max_n", 1e-4, 1e4, true, true}},
       .grid = saturation_grid,
@@ -234,7 +248,8 @@ Mechanism saturation() {
 
 std::vector<Mechanism> sensor_mechanisms() {
   return {
-      gravity_posture(), inertia(), gain_error(), cross_talk(), delay(), low_pass(), position_late(), ringing(), saturation(),
+      gravity_posture(), inertia(),       gain_error(), cross_talk(), delay(),
+      low_pass(),        position_late(), ringing(),    saturation(),
   };
 }
 

@@ -5,7 +5,8 @@
 namespace cavum::explain {
 namespace {
 
-constexpr std::size_t k_kept = 12;  // blocks: those of a search over one shape beside five causes, and a few to come back to
+constexpr std::size_t k_kept =
+    12;  // blocks: those of a search over one shape beside five causes, and a few to come back to
 
 }  // namespace
 
@@ -14,7 +15,8 @@ TermFits::TermFits(const View& view) : view_(view), white_(whitening_of(view)) {
   set_prior(sums_, view.scene->recording->rig);
   std::size_t fold = 0;
   for (const auto& s : view.scene->recording->sessions) {
-    const Eigen::MatrixXd effects = view.white_effects->middleRows(s.begin, s.end - s.begin).cast<double>();
+    const Eigen::MatrixXd effects =
+        view.white_effects->middleRows(s.begin, s.end - s.begin).cast<double>();
     sums_.sessions.push_back({s.begin, s.end, fold++, {}, effects.transpose() * effects, {}, {}});
   }
   Block base;
@@ -35,11 +37,14 @@ TermFits::Block TermFits::made(const Term& term) {
   Columns c = m.columns(*view_.scene, term.shape);
   Block block;
   block.term = term;
-  block.repeats = m.by_session ? static_cast<Eigen::Index>(session_groups(*view_.scene->recording)) : 1;
+  block.repeats =
+      m.by_session ? static_cast<Eigen::Index>(session_groups(*view_.scene->recording)) : 1;
   block.own = static_cast<Eigen::Index>(c.own.size()) / block.repeats;
   for (Eigen::Index i = 0; i < block.own; ++i) {
-    Series whole = std::move(c.own[static_cast<std::size_t>(i)]);  // those of sessions do not overlap
-    for (Eigen::Index s = 1; s < block.repeats; ++s) whole += c.own[static_cast<std::size_t>(s * block.own + i)];
+    Series whole =
+        std::move(c.own[static_cast<std::size_t>(i)]);  // those of sessions do not overlap
+    for (Eigen::Index s = 1; s < block.repeats; ++s)
+      whole += c.own[static_cast<std::size_t>(s * block.own + i)];
     add(block, std::move(whole));
   }
   if (c.spring.size() > 0) block.spring = block.white.cols(), add(block, std::move(c.spring));
@@ -61,7 +66,8 @@ const std::vector<Eigen::MatrixXd>& TermFits::products(Block& a, Block& b) {
   std::vector<Eigen::MatrixXd>& out = a.with_block[&b];
   if (out.empty())
     for (const auto& s : sums_.sessions)
-      out.emplace_back(a.white.middleRows(s.begin, s.end - s.begin).transpose() * b.white.middleRows(s.begin, s.end - s.begin));
+      out.emplace_back(a.white.middleRows(s.begin, s.end - s.begin).transpose() *
+                       b.white.middleRows(s.begin, s.end - s.begin));
   return out;
 }
 
@@ -90,9 +96,11 @@ FitResult TermFits::fit(const std::vector<Term>& causes, bool covariance) {
     Block& a = *blocks[i];
     if (a.with_effects.empty())
       for (const auto& s : p.sessions)
-        a.with_effects.emplace_back(a.white.middleRows(s.begin, s.end - s.begin).transpose() *
-                                    view_.white_effects->middleRows(s.begin, s.end - s.begin).cast<double>());
-    for (std::size_t s = 0; s < p.sessions.size(); ++s) p.sessions[s].with_effects.middleRows(row, a.white.cols()) = a.with_effects[s];
+        a.with_effects.emplace_back(
+            a.white.middleRows(s.begin, s.end - s.begin).transpose() *
+            view_.white_effects->middleRows(s.begin, s.end - s.begin).cast<double>());
+    for (std::size_t s = 0; s < p.sessions.size(); ++s)
+      p.sessions[s].with_effects.middleRows(row, a.white.cols()) = a.with_effects[s];
     Eigen::Index column = 0;
     for (std::size_t j = 0; j <= i; ++j) {
       Block& b = *blocks[j];

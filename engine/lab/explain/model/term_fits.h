@@ -1,5 +1,5 @@
-// Fits of the base and any causes on all rows, for refining shapes. The whitened columns of the terms seen last are kept, so that a search that moves
-// one shape pays for that term alone.
+// Fits of the base and any causes on all rows, for refining shapes. The whitened columns of the
+// terms seen last are kept, so that a search that moves one shape pays for that term alone.
 #pragma once
 
 #include <list>
@@ -13,7 +13,8 @@ namespace cavum::explain {
 class TermFits {
  public:
   explicit TermFits(const View& view);
-  /// Least squares with the weights, the noise and the contact of the view. Value: k, c, then own coefficients of each cause in turn.
+  /// Least squares with the weights, the noise and the contact of the view. Value: k, c, then own
+  /// coefficients of each cause in turn.
   [[nodiscard]] FitResult fit(const std::vector<Term>& causes, bool covariance = false);
   [[nodiscard]] const View& view() const { return view_; }
 
@@ -22,10 +23,11 @@ class TermFits {
   struct Block {
     Term term;  ///< of mechanism -1: force, k and c
     Eigen::Index own = 0, repeats = 1;
-    Eigen::Index spring = -1, damper = -1;                            ///< among its columns
-    Eigen::MatrixXd white;                                            ///< [rows, columns]
-    std::vector<Eigen::MatrixXd> with_effects;                        ///< by session, [columns, effects]
-    std::map<const Block*, std::vector<Eigen::MatrixXd>> with_block;  ///< by session, [columns, the other's columns]
+    Eigen::Index spring = -1, damper = -1;      ///< among its columns
+    Eigen::MatrixXd white;                      ///< [rows, columns]
+    std::vector<Eigen::MatrixXd> with_effects;  ///< by session, [columns, effects]
+    std::map<const Block*, std::vector<Eigen::MatrixXd>>
+        with_block;  ///< by session, [columns, the other's columns]
   };
 
   void add(Block& block, Series column);

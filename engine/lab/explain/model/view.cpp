@@ -10,7 +10,8 @@
 namespace cavum::explain {
 namespace {
 
-constexpr int k_rounds = 4;  // of base, noise and weights in turn; more changed k by less than 1e-4 of itself
+constexpr int k_rounds =
+    4;  // of base, noise and weights in turn; more changed k by less than 1e-4 of itself
 
 /// Design matrix of base and causes, raw: force, k, c, own columns of each.
 struct Design {
@@ -35,12 +36,14 @@ Design design_of(const Scene& scene, const std::vector<Term>& causes) {
 
 Series combined(const Design& d, const Eigen::VectorXd& value) {
   Series out = Series::Zero(d.columns.front().size());
-  for (std::size_t i = 0; i < d.columns.size(); ++i) out += value[static_cast<Eigen::Index>(i)] * d.columns[i];
+  for (std::size_t i = 0; i < d.columns.size(); ++i)
+    out += value[static_cast<Eigen::Index>(i)] * d.columns[i];
   return out;
 }
 
 /// Force of the base and of those causes that act inside the contact, as if it could pull, [rows].
-Series pressed_n(const Scene& scene, const std::vector<Term>& causes, const Eigen::VectorXd& value) {
+Series pressed_n(const Scene& scene, const std::vector<Term>& causes,
+                 const Eigen::VectorXd& value) {
   Scene open = scene;
   never_pull(open, nullptr);
   Series f = value[0] * open.spring_mm + value[1] * open.damper_mm_s;
@@ -49,7 +52,8 @@ Series pressed_n(const Scene& scene, const std::vector<Term>& causes, const Eige
     const Mechanism& m = mechanism_at(term.mechanism);
     const Columns c = m.columns(open, term.shape);
     if (m.inside) {
-      for (std::size_t i = 0; i < c.own.size(); ++i) f += value[at + static_cast<Eigen::Index>(i)] * c.own[i];
+      for (std::size_t i = 0; i < c.own.size(); ++i)
+        f += value[at + static_cast<Eigen::Index>(i)] * c.own[i];
       if (c.spring.size() > 0) f += value[0] * c.spring;
       if (c.damper.size() > 0) f += value[1] * c.damper;
     }
@@ -59,14 +63,17 @@ Series pressed_n(const Scene& scene, const std::vector<Term>& causes, const Eige
 }
 
 bool any_inside(const std::vector<Term>& causes) {
-  return std::any_of(causes.begin(), causes.end(), [](const Term& t) { return mechanism_at(t.mechanism).inside; });
+  return std::any_of(causes.begin(), causes.end(),
+                     [](const Term& t) { return mechanism_at(t.mechanism).inside; });
 }
 
 void whiten_effects(View& v) {
   const Whitening white = whitening_of(v);
   const bool any = !v.causes.empty() && v.model_n->size() > 0;
-  EffectColumns raw = session_columns(
-      *v.scene, any ? Series(*v.model_n - v.base_fit.value[0] * v.scene->spring_mm - v.base_fit.value[1] * v.scene->damper_mm_s) : Series());
+  EffectColumns raw =
+      session_columns(*v.scene, any ? Series(*v.model_n - v.base_fit.value[0] * v.scene->spring_mm -
+                                             v.base_fit.value[1] * v.scene->damper_mm_s)
+                                    : Series());
   EffectColumns whitened(raw.rows(), raw.cols());
   for (Eigen::Index e = 0; e < raw.cols(); ++e) {
     Series column = raw.col(e).cast<double>().array();
@@ -78,20 +85,23 @@ void whiten_effects(View& v) {
 }
 
 /// Force that is left, whitened, and what of it the sessions differ by.
-Series session_part(const View& v, const Recording& recording, const Series& left, SessionSpread* found) {
+Series session_part(const View& v, const Recording& recording, const Series& left,
+                    SessionSpread* found) {
   Series z = left;
   whitening_of(v).apply(z);
   if (found != nullptr) *found = estimate_spread(recording, *v.white_effects, z);
-  return session_force_n(recording, *v.effects, *v.white_effects, z, found != nullptr ? *found : v.spread);
+  return session_force_n(recording, *v.effects, *v.white_effects, z,
+                         found != nullptr ? *found : v.spread);
 }
 
-/// Variance of what `causes` add to k and c over the motions that the recording leaves possible, [rows]. Averaged over neighbouring rows, for few
-/// motions are drawn.
+/// Variance of what `causes` add to k and c over the motions that the recording leaves possible,
+/// [rows]. Averaged over neighbouring rows, for few motions are drawn.
 Series variance_n2(const View& v, const std::vector<Term>& causes, const Eigen::VectorXd& value) {
   constexpr Eigen::Index k_beside = 2;  // rows on each side
   const Motion& m = *v.scene->motion;
   const auto causes_n = [&](const Scene& scene) {
-    return Series(force_of(scene, causes, value) - value[0] * scene.spring_mm - value[1] * scene.damper_mm_s);
+    return Series(force_of(scene, causes, value) - value[0] * scene.spring_mm -
+                  value[1] * scene.damper_mm_s);
   };
   const Series expected = causes_n(*v.scene);
   Series sum = Series::Zero(expected.size());
@@ -106,15 +116,17 @@ Series variance_n2(const View& v, const std::vector<Term>& causes, const Eigen::
   Series out = sum;
   for (const auto& s : v.scene->recording->sessions)
     for (Eigen::Index i = s.begin; i < s.end; ++i) {
-      const Eigen::Index from = std::max(s.begin, i - k_beside), to = std::min(s.end - 1, i + k_beside);
+      const Eigen::Index from = std::max(s.begin, i - k_beside),
+                         to = std::min(s.end - 1, i + k_beside);
       out[i] = sum.segment(from, to - from + 1).mean();
     }
   return out;
 }
 
-/// What the position leaves open in the force, [rows]: of the causes, and of a dry friction that may be there. At a reversal and in a hold its side
-/// is open, whatever has been named; rows judged by what was named first would speak for it. Its size is that of the width that fits best, its width
-/// the least of the grid.
+/// What the position leaves open in the force, [rows]: of the causes, and of a dry friction that
+/// may be there. At a reversal and in a hold its side is open, whatever has been named; rows judged
+/// by what was named first would speak for it. Its size is that of the width that fits best, its
+/// width the least of the grid.
 Series uncertain_n2(const View& v) {
   const int friction = known_mechanism("coulomb_friction");
   TermFits fits(v);
@@ -126,7 +138,8 @@ Series uncertain_n2(const View& v) {
     if (sharp.empty()) sharp = {{friction, shape}};
     if (fit.value[2] > 0.0 && fit.chi2 < least) least = fit.chi2, value = fit.value;
   }
-  const Series open = value.size() > 0 ? variance_n2(v, sharp, value) : Series(Series::Zero(v.scene->force_n.size()));
+  const Series open = value.size() > 0 ? variance_n2(v, sharp, value)
+                                       : Series(Series::Zero(v.scene->force_n.size()));
   return v.causes.empty() ? open : Series(open.max(variance_n2(v, v.causes, v.base_fit.value)));
 }
 
@@ -135,14 +148,16 @@ void fit_in_turn(View& v, const Recording& recording, const Shared<Motion>& moti
   double noise_sd = 0.0;
   Series pressed, uncertain;
   for (int round = 0; round < k_rounds; ++round) {
-    v.scene = make_scene(recording, motion, base, noise_sd, v.noise.rho, pressed.size() > 0 ? &pressed : nullptr,
+    v.scene = make_scene(recording, motion, base, noise_sd, v.noise.rho,
+                         pressed.size() > 0 ? &pressed : nullptr,
                          uncertain.size() > 0 ? &uncertain : nullptr);
     if (!(v.noise.step_sd_n > 0.0)) v.noise = {0.0, 1.0, 1.0, {}};
     whiten_effects(v);
     v.base_fit = TermFits(v).fit(v.causes);
     v.model_n = force_of(*v.scene, v.causes, v.base_fit.value);
     const Series left = *v.force_n - *v.model_n;
-    const Series beside = left - session_part(v, recording, left, nullptr);  // the sessions beside the new base
+    const Series beside =
+        left - session_part(v, recording, left, nullptr);  // the sessions beside the new base
     base = base_of(v);
     v.noise = estimate_noise(recording, beside, v.scene->weight);
     noise_sd = v.noise.sd_n;
@@ -171,9 +186,12 @@ Series force_of(const Scene& scene, const std::vector<Term>& causes, const Eigen
   return combined(design_of(scene, causes), value);
 }
 
-Whitening whitening_of(const View& v) { return {*v.scene->recording, v.noise, v.scene->weight, *v.robust}; }
+Whitening whitening_of(const View& v) {
+  return {*v.scene->recording, v.noise, v.scene->weight, *v.robust};
+}
 
-std::vector<Series> tangents_of(const Scene& scene, const Term& term, const std::vector<double>& own, Base base) {
+std::vector<Series> tangents_of(const Scene& scene, const Term& term,
+                                const std::vector<double>& own, Base base) {
   const Mechanism& m = mechanism_at(term.mechanism);
   const auto force = [&](const std::vector<double>& shape) {
     const Columns c = m.columns(scene, shape);
@@ -186,7 +204,8 @@ std::vector<Series> tangents_of(const Scene& scene, const Term& term, const std:
   std::vector<Series> out;
   for (std::size_t i = 0; i < m.shape.size(); ++i) {
     if (!m.shape[i].fitted || term.shape[i] == 0.0) continue;
-    const double step = m.shape[i].logarithmic ? 0.02 * term.shape[i] : 0.01 * std::max(0.1, std::fabs(term.shape[i]));
+    const double step = m.shape[i].logarithmic ? 0.02 * term.shape[i]
+                                               : 0.01 * std::max(0.1, std::fabs(term.shape[i]));
     const std::string name = m.shape[i].name;
     const double real_step = name == "frequency_hz" ? 1e-3 : name == "rate_ratio" ? 3e-6 : step;
     auto up = term.shape, down = term.shape;
@@ -197,12 +216,14 @@ std::vector<Series> tangents_of(const Scene& scene, const Term& term, const std:
   return out;
 }
 
-View make_view(const Recording& recording, const Shared<Motion>& motion, const std::vector<Term>& causes, const Series* fixed_n) {
+View make_view(const Recording& recording, const Shared<Motion>& motion,
+               const std::vector<Term>& causes, const Series* fixed_n) {
   View v;
   v.causes = causes;
   v.force_n = fixed_n != nullptr ? Series(recording.f_n - *fixed_n) : recording.f_n;
   Base start;  // else found from the data
-  if (recording.rig.k_n_per_mm) start = {*recording.rig.k_n_per_mm, recording.rig.c_n_s_per_mm.value_or(0.0)};
+  if (recording.rig.k_n_per_mm)
+    start = {*recording.rig.k_n_per_mm, recording.rig.c_n_s_per_mm.value_or(0.0)};
   fit_in_turn(v, recording, motion, start);
   return v;
 }

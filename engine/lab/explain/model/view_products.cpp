@@ -13,22 +13,29 @@ struct WhiteTerm {
   std::vector<Series> columns;
 };
 
-/// `apart`: a column for each session, where the mechanism has coefficients for each; else they share columns, for they do not overlap.
+/// `apart`: a column for each session, where the mechanism has coefficients for each; else they
+/// share columns, for they do not overlap.
 WhiteTerm white_term(const View& v, const Whitening& white, const Term& term, bool apart) {
   const Mechanism& m = mechanism_at(term.mechanism);
   Columns c = m.columns(*v.scene, term.shape);
   WhiteTerm out;
   Hypothesis& h = out.hypothesis;
   h.term = term;
-  h.repeats = m.by_session && !apart ? static_cast<Eigen::Index>(session_groups(*v.scene->recording)) : 1;
+  h.repeats =
+      m.by_session && !apart ? static_cast<Eigen::Index>(session_groups(*v.scene->recording)) : 1;
   h.own = static_cast<Eigen::Index>(c.own.size()) / h.repeats;
   for (Eigen::Index i = 0; i < h.own; ++i) {
     Series whole = std::move(c.own[static_cast<std::size_t>(i)]);
-    for (Eigen::Index s = 1; s < h.repeats; ++s) whole += c.own[static_cast<std::size_t>(s * h.own + i)];
+    for (Eigen::Index s = 1; s < h.repeats; ++s)
+      whole += c.own[static_cast<std::size_t>(s * h.own + i)];
     out.columns.push_back(std::move(whole));
   }
-  if (c.spring.size() > 0) h.spring = static_cast<Eigen::Index>(out.columns.size()), out.columns.push_back(std::move(c.spring));
-  if (c.damper.size() > 0) h.damper = static_cast<Eigen::Index>(out.columns.size()), out.columns.push_back(std::move(c.damper));
+  if (c.spring.size() > 0)
+    h.spring = static_cast<Eigen::Index>(out.columns.size()),
+    out.columns.push_back(std::move(c.spring));
+  if (c.damper.size() > 0)
+    h.damper = static_cast<Eigen::Index>(out.columns.size()),
+    out.columns.push_back(std::move(c.damper));
   for (auto& column : out.columns) white.apply(column);
   return out;
 }
@@ -42,7 +49,8 @@ Hypothesis put_into(WhiteTable& table, WhiteTerm term, bool exact) {
   return h;
 }
 
-/// What is left of the force, k, c, and the causes with tangents at the coefficients that the base was fitted with. What was taken.
+/// What is left of the force, k, c, and the causes with tangents at the coefficients that the base
+/// was fitted with. What was taken.
 Taken add_known(View& v, const Whitening& white, WhiteTable& table) {
   Taken taken{v.base_fit.value[0], v.base_fit.value[1], {}, {}, {}};
   const auto add = [&](Series column) {
@@ -78,10 +86,13 @@ void add_grid(View& v, const Whitening& white, WhiteTable& table) {
   constexpr std::size_t k_at_a_time = 8;
   std::vector<Term> terms;
   for (std::size_t m = 0; m < mechanisms().size(); ++m)
-    for (auto& shape : starts(mechanisms()[m], *v.scene)) terms.push_back({static_cast<int>(m), std::move(shape)});
+    for (auto& shape : starts(mechanisms()[m], *v.scene))
+      terms.push_back({static_cast<int>(m), std::move(shape)});
   for (std::size_t first = 0; first < terms.size(); first += k_at_a_time) {
     std::vector<WhiteTerm> made(std::min(k_at_a_time, terms.size() - first));
-    independent_runs(made.size(), [&](std::size_t i) { made[i] = white_term(v, white, terms[first + i], false); });
+    independent_runs(made.size(), [&](std::size_t i) {
+      made[i] = white_term(v, white, terms[first + i], false);
+    });
     for (auto& one : made) v.grid.push_back(put_into(table, std::move(one), false));
   }
 }
@@ -92,8 +103,11 @@ void add_curves(View& v, const Whitening& white, WhiteTable& table) {
     Eigen::MatrixXd products(count, count);
     for (Eigen::Index i = 0; i < count; ++i)
       for (Eigen::Index j = 0; j < count; ++j)
-        products(i, j) = (curve.columns[static_cast<std::size_t>(i)] * curve.columns[static_cast<std::size_t>(j)]).mean();
-    v.curves.push_back({std::move(curve.variable), std::move(curve.form), table.columns(), count, std::move(products)});
+        products(i, j) = (curve.columns[static_cast<std::size_t>(i)] *
+                          curve.columns[static_cast<std::size_t>(j)])
+                             .mean();
+    v.curves.push_back({std::move(curve.variable), std::move(curve.form), table.columns(), count,
+                        std::move(products)});
     for (auto& column : curve.columns) {
       white.apply(column);
       table.add(column);
@@ -114,16 +128,24 @@ void sum_products(View& v, const Whitening& whitening, Taken taken) {
     Eigen::MatrixXd& sums = p.folds[f] = Eigen::MatrixXd::Zero(count, count);
     Eigen::MatrixXf part(count, count);
     for (const auto& s : v.scene->recording->sessions) {
-      SessionProducts own{std::max(begin, s.begin), std::min(end, s.end), f, Eigen::MatrixXd::Zero(count, k_session_effects), {}, {}, {}};
+      SessionProducts own{std::max(begin, s.begin),
+                          std::min(end, s.end),
+                          f,
+                          Eigen::MatrixXd::Zero(count, k_session_effects),
+                          {},
+                          {},
+                          {}};
       if (own.begin >= own.end) continue;
       for (Eigen::Index at = own.begin; at < own.end; at += k_white_rows) {
         const Eigen::MatrixXf rows = white.rows(at, std::min(k_white_rows, own.end - at));
         part.setZero();
         part.selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose());
         sums.triangularView<Eigen::Lower>() += part.cast<double>();
-        own.with_effects += (rows.transpose() * v.white_effects->middleRows(at, rows.rows())).cast<double>();
+        own.with_effects +=
+            (rows.transpose() * v.white_effects->middleRows(at, rows.rows())).cast<double>();
       }
-      const Eigen::MatrixXd effects = v.white_effects->middleRows(own.begin, own.end - own.begin).cast<double>();
+      const Eigen::MatrixXd effects =
+          v.white_effects->middleRows(own.begin, own.end - own.begin).cast<double>();
       own.effects = effects.transpose() * effects;
       sessions[f].push_back(std::move(own));
     }
@@ -152,7 +174,8 @@ std::vector<std::pair<Eigen::Index, Eigen::Index>> folds_of(const Recording& r) 
     return out;
   }
   const std::size_t folds = std::min(n, k_most);
-  for (std::size_t f = 0; f < folds; ++f) out.emplace_back(r.sessions[f * n / folds].begin, r.sessions[(f + 1) * n / folds - 1].end);
+  for (std::size_t f = 0; f < folds; ++f)
+    out.emplace_back(r.sessions[f * n / folds].begin, r.sessions[(f + 1) * n / folds - 1].end);
   return out;
 }
 
@@ -163,7 +186,8 @@ void find_lines(View& v) {
   whitening_of(v).apply(z);
   std::vector<double> known_hz;
   for (const auto& term : v.causes)
-    if (const Mechanism& m = mechanism_at(term.mechanism); m.by_session && m.from_residual) known_hz.push_back(term.shape[0]);
+    if (const Mechanism& m = mechanism_at(term.mechanism); m.by_session && m.from_residual)
+      known_hz.push_back(term.shape[0]);
   scene.lines_hz = strongest_lines_hz(scene, z * scene.active, 2, known_hz);
   scene.lines_in_air_hz = strongest_lines_hz(scene, z, 2, known_hz);
 }

@@ -1,5 +1,5 @@
-// Which column of a table is the time, the position, the speed, the force: by option, by our names, by names that machines write. Never guessed:
-// where two could be it, both are listed.
+// Which column of a table is the time, the position, the speed, the force: by option, by our names,
+// by names that machines write. Never guessed: where two could be it, both are listed.
 #pragma once
 
 #include <array>
@@ -15,12 +15,16 @@ namespace cavum::explain {
 
 /// What a recording's reader is told beside the file.
 struct ReadingOptions {
-  std::map<std::string, std::string> names;  ///< contract name or t, x, v, f → name in the file, with or without its unit
-  std::map<std::string, std::string> units;  ///< the same, or a name in the file → unit; goes before that of the file
-  std::vector<std::string> negate;           ///< x, v or f, or their contract names: the file counts the other way
-  std::optional<double> surface_mm;          ///< where the surface is in the file's positions, mm, before any change of sign
-  std::optional<double> lever_mm;            ///< of angles and torques, > 0
-  bool with_position = true;                 ///< false: a force over time, which needs no position
+  std::map<std::string, std::string>
+      names;  ///< contract name or t, x, v, f → name in the file, with or without its unit
+  std::map<std::string, std::string>
+      units;  ///< the same, or a name in the file → unit; goes before that of the file
+  std::vector<std::string>
+      negate;  ///< x, v or f, or their contract names: the file counts the other way
+  std::optional<double>
+      surface_mm;  ///< where the surface is in the file's positions, mm, before any change of sign
+  std::optional<double> lever_mm;  ///< of angles and torques, > 0
+  bool with_position = true;       ///< false: a force over time, which needs no position
 };
 
 /// How one of the four columns is read.
@@ -35,14 +39,17 @@ struct ColumnReading {
 };
 
 struct ColumnPlan {
-  std::vector<ColumnReading> motion;         ///< time first; position and speed may be absent
-  std::optional<std::size_t> session, date;  ///< columns that name the run, and the day of a time of day
-  std::vector<std::string> names;            ///< of all columns, as the recording keeps them
+  std::vector<ColumnReading> motion;  ///< time first; position and speed may be absent
+  std::optional<std::size_t> session,
+      date;                        ///< columns that name the run, and the day of a time of day
+  std::vector<std::string> names;  ///< of all columns, as the recording keeps them
   [[nodiscard]] const ColumnReading* of(Role role) const;
 };
 
-/// Throws Error(at, ...) when a column is missing (with all names, and the nearest), when several could be one, when a unit is unknown, when an angle
-/// has no lever, or when an option names nothing.
-[[nodiscard]] ColumnPlan plan_columns(const std::vector<HeaderName>& header, const ReadingOptions& options, const std::string& at);
+/// Throws Error(at, ...) when a column is missing (with all names, and the nearest), when several
+/// could be one, when a unit is unknown, when an angle has no lever, or when an option names
+/// nothing.
+[[nodiscard]] ColumnPlan plan_columns(const std::vector<HeaderName>& header,
+                                      const ReadingOptions& options, const std::string& at);
 
 }  // namespace cavum::explain

@@ -1,5 +1,6 @@
-// How a recording counts: is compression negative, does the position grow out of the material, is it a machine's own, where its surface is not at 0.
-// Judged from the data, said in words with the option that puts it right, and never changed silently.
+// How a recording counts: is compression negative, does the position grow out of the material, is
+// it a machine's own, where its surface is not at 0. Judged from the data, said in words with the
+// option that puts it right, and never changed silently.
 #pragma once
 
 #include <optional>
@@ -19,7 +20,8 @@ struct Doubt {
   std::string options;  ///< what puts it right: "--negate f"
 };
 
-/// Where the force leaves its level in air: a bend of the mean force over the position, flat on one side.
+/// Where the force leaves its level in air: a bend of the mean force over the position, flat on one
+/// side.
 struct ContactSeen {
   double at_mm = 0.0;      ///< position where it begins, as the recording counts
   double air_n = 0.0;      ///< level on the flat side
@@ -28,8 +30,10 @@ struct ContactSeen {
 };
 
 struct Conventions {
-  std::optional<ContactSeen> contact;  ///< none: wholly in air, wholly in contact, or not to be told
-  double speed_agrees = 0.0;           ///< correlation of the measured speed with the position's change, -1..1; 0 without speed
+  std::optional<ContactSeen>
+      contact;                ///< none: wholly in air, wholly in contact, or not to be told
+  double speed_agrees = 0.0;  ///< correlation of the measured speed with the position's change,
+                              ///< -1..1; 0 without speed
   std::vector<Doubt> doubts;
   [[nodiscard]] const Doubt* first_clear() const;
 };
@@ -38,8 +42,9 @@ struct Conventions {
 [[nodiscard]] Conventions judge_conventions(const Recording& recording);
 #define CAVUM_CONVENTION_ERRORS(ERROR) ERROR(data_fault)
 CAVUM_NAMED_ENUM(ConventionError, CAVUM_CONVENTION_ERRORS)
-/// Throws Error(ConventionError::data_fault, where, what, options) when a doubt is clear and nobody said that all is well (`as_it_is`); the others in
-/// words, as notes.
-[[nodiscard]] Facts require_conventions(const Recording& recording, const std::string& where, bool as_it_is = false);
+/// Throws Error(ConventionError::data_fault, where, what, options) when a doubt is clear and nobody
+/// said that all is well (`as_it_is`); the others in words, as notes.
+[[nodiscard]] Facts require_conventions(const Recording& recording, const std::string& where,
+                                        bool as_it_is = false);
 
 }  // namespace cavum::explain

@@ -42,10 +42,14 @@ class Pieces {
   void blanks() { left_ = left_.substr(std::min(left_.find_first_not_of(' '), left_.size())); }
   /// ".123" or ",123", else 0.
   double fraction() {
-    if (left_.size() < 2 || (left_[0] != '.' && left_[0] != ',') || left_[1] < '0' || left_[1] > '9') return 0.0;
+    if (left_.size() < 2 || (left_[0] != '.' && left_[0] != ',') || left_[1] < '0' ||
+        left_[1] > '9')
+      return 0.0;
     left_.remove_prefix(1);
     double value = 0.0, place = 0.1;
-    for (; !left_.empty() && left_[0] >= '0' && left_[0] <= '9'; left_.remove_prefix(1), place /= 10.0) value += place * (left_[0] - '0');
+    for (; !left_.empty() && left_[0] >= '0' && left_[0] <= '9';
+         left_.remove_prefix(1), place /= 10.0)
+      value += place * (left_[0] - '0');
     return value;
   }
   [[nodiscard]] bool empty() const { return left_.empty(); }
@@ -57,11 +61,13 @@ class Pieces {
 
 bool is_leap(std::int64_t year) { return (year % 4 == 0 && year % 100 != 0) || year % 400 == 0; }
 
-/// Days since 1970-01-01 in the proleptic Gregorian calendar (Howard Hinnant, days_from_civil); none for what is no date.
+/// Days since 1970-01-01 in the proleptic Gregorian calendar (Howard Hinnant, days_from_civil);
+/// none for what is no date.
 std::optional<std::int64_t> days(std::int64_t year, std::int64_t month, std::int64_t day) {
   if (year < 1900 || year > 2200 || month < 1 || month > 12 || day < 1) return std::nullopt;
   constexpr std::array<std::int64_t, 12> k_length{31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-  if (day > k_length[static_cast<std::size_t>(month - 1)] + (month == 2 && is_leap(year) ? 1 : 0)) return std::nullopt;
+  if (day > k_length[static_cast<std::size_t>(month - 1)] + (month == 2 && is_leap(year) ? 1 : 0))
+    return std::nullopt;
   const std::int64_t y = month <= 2 ? year - 1 : year, era = y / 400, of_era = y - era * 400;
   const std::int64_t of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
   return era * 146097 + of_era * 365 + of_era / 4 - of_era / 100 + of_year - 719468;
@@ -72,7 +78,8 @@ std::optional<std::int64_t> take_date(Pieces& in, SlashOrder order) {
   const auto first = in.whole(1, 4);
   if (!first) return std::nullopt;
   const char between = in.left().empty() ? ' ' : in.left().front();
-  if ((between != '-' && between != '.' && between != '/') || !in.take(between)) return std::nullopt;
+  if ((between != '-' && between != '.' && between != '/') || !in.take(between))
+    return std::nullopt;
   const auto second = in.whole(1, 2);
   if (!second || !in.take(between)) return std::nullopt;
   const auto third = in.whole(1, 4);
@@ -81,7 +88,8 @@ std::optional<std::int64_t> take_date(Pieces& in, SlashOrder order) {
   if (between == '-' || *third < 100) return std::nullopt;
   if (between == '.') return days(*third, *second, *first);
   if (order == SlashOrder::unknown) return std::nullopt;
-  return order == SlashOrder::month_first ? days(*third, *first, *second) : days(*third, *second, *first);
+  return order == SlashOrder::month_first ? days(*third, *first, *second)
+                                          : days(*third, *second, *first);
 }
 
 /// Takes a time of day: HH:MM, HH:MM:SS.fff, AM or PM.
@@ -108,7 +116,8 @@ std::optional<double> take_time(Pieces& in) {
   return static_cast<double>(*hours * 3600 + *minutes * 60) + seconds;
 }
 
-/// Takes Z, or the hours that the clock is ahead of it: seconds; 0 where nothing stands. None: something else does.
+/// Takes Z, or the hours that the clock is ahead of it: seconds; 0 where nothing stands. None:
+/// something else does.
 std::optional<double> take_zone(Pieces& in) {
   in.blanks();
   if (in.take('Z') || in.take_word("utc") || in.empty()) return 0.0;
@@ -124,7 +133,8 @@ std::optional<double> take_zone(Pieces& in) {
 
 /// Seconds since 1970 in the unit whose years are ours (2000 to 2100): its name and seconds.
 std::optional<std::pair<const char*, double>> epoch_unit(double value) {
-  constexpr std::array<std::pair<const char*, double>, 4> k_units{{{"s", 1.0}, {"ms", 1e-3}, {"µs", 1e-6}, {"ns", 1e-9}}};
+  constexpr std::array<std::pair<const char*, double>, 4> k_units{
+      {{"s", 1.0}, {"ms", 1e-3}, {"µs", 1e-6}, {"ns", 1e-9}}};
   for (const auto& unit : k_units)
     if (value * unit.second >= k_year_2000_s && value * unit.second < k_year_2100_s) return unit;
   return std::nullopt;
@@ -170,8 +180,10 @@ std::optional<SlashOrder> slash_order(std::string_view text) {
 }
 
 bool looks_like_stamp(std::string_view cell) {
-  if (cell.size() < 4 || cell.size() > k_longest_stamp || cell.front() < '0' || cell.front() > '9') return false;
-  if (cell.find_first_not_of("0123456789:.,-/+TZ APMUCapmuc") != std::string_view::npos) return false;
+  if (cell.size() < 4 || cell.size() > k_longest_stamp || cell.front() < '0' || cell.front() > '9')
+    return false;
+  if (cell.find_first_not_of("0123456789:.,-/+TZ APMUCapmuc") != std::string_view::npos)
+    return false;
   const auto many = [&](char c) { return std::count(cell.begin(), cell.end(), c); };
   return many(':') > 0 || many('-') == 2 || many('/') == 2 || many('.') == 2;
 }
@@ -180,7 +192,8 @@ void StampReader::begin(std::string_view cell) {
   begun_ = true;
   if (const auto number = number_in(cell, decimal_)) {
     const auto unit = epoch_unit(*number);
-    if (!unit || (declared_ && *number * factor_ < k_year_2000_s)) return;  // a machine that has run for weeks counts as high
+    if (!unit || (declared_ && *number * factor_ < k_year_2000_s))
+      return;  // a machine that has run for weeks counts as high
     kind_ = Kind::epoch;
     epoch_unit_ = unit->first;
     factor_ = unit->second;
@@ -199,7 +212,8 @@ std::optional<double> StampReader::of_stamp(const Stamp& stamp) {
   if (stamp.dated != (kind_ == Kind::date)) return std::nullopt;
   if (!stamp.dated && stamp.second < last_second_ - 0.5 * k_day_s) ++midnights_;
   last_second_ = stamp.second;
-  return static_cast<double>(stamp.day - first_.day + midnights_) * k_day_s + (stamp.second - first_.second);
+  return static_cast<double>(stamp.day - first_.day + midnights_) * k_day_s +
+         (stamp.second - first_.second);
 }
 
 std::optional<double> StampReader::seconds(std::string_view cell) {

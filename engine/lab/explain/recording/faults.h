@@ -24,8 +24,8 @@ struct DataFault {
 };
 
 /// Empty when there is none. Looks at the order of time stamps, at the time base (does the
-/// integral of v give x?), at units (metres for millimetres, milliseconds for seconds), at clipped force, and at instruments that did not
-/// record (standstill.h).
+/// integral of v give x?), at units (metres for millimetres, milliseconds for seconds), at clipped
+/// force, and at instruments that did not record (standstill.h).
 [[nodiscard]] std::vector<DataFault> data_faults(const Recording& recording);
 
 /// For other programs: {"kind", "values", "text"}.

@@ -31,7 +31,8 @@ bool take_bracketed(HeaderName& h) {
   return false;
 }
 
-/// "name/unit", "name, unit", "name in unit"; what is behind must be a unit, for / and commas stand in names, too.
+/// "name/unit", "name, unit", "name in unit"; what is behind must be a unit, for / and commas stand
+/// in names, too.
 bool take_parted(HeaderName& h) {
   for (const std::string_view mark : {" in ", ", ", ",", " / ", " ", "/"})
     if (const std::size_t at = h.whole.find(mark); at != std::string::npos && at > 0) {
@@ -49,7 +50,9 @@ bool take_parted(HeaderName& h) {
 void take_ending(HeaderName& h) {
   std::size_t at = h.whole.size();
   std::vector<std::size_t> marks;
-  while (marks.size() < 2 && at > 0 && (at = h.whole.find_last_of("_-", at - 1)) != std::string::npos && at > 0) marks.push_back(at);
+  while (marks.size() < 2 && at > 0 &&
+         (at = h.whole.find_last_of("_-", at - 1)) != std::string::npos && at > 0)
+    marks.push_back(at);
   for (auto mark = marks.rbegin(); mark != marks.rend(); ++mark) {
     const std::string unit = h.whole.substr(*mark + 1);
     if (!is_unit(unit)) continue;
@@ -66,8 +69,10 @@ std::size_t distance(const std::string& a, const std::string& b) {
   for (std::size_t i = 1; i <= a.size(); ++i) {
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (a[i - 1] == b[j - 1] ? 0U : 1U)});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
+      row[j] =
+          std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (a[i - 1] == b[j - 1] ? 0U : 1U)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
     }
     before = std::exchange(above, row);
   }
@@ -78,7 +83,9 @@ std::size_t distance(const std::string& a, const std::string& b) {
 
 std::string header_text(std::string_view bytes) {
   std::string as_it_is = one_line(bytes);  // bytes that are no UTF-8 are ? there
-  if (std::count(as_it_is.begin(), as_it_is.end(), '?') == std::count(bytes.begin(), bytes.end(), '?')) return as_it_is;
+  if (std::count(as_it_is.begin(), as_it_is.end(), '?') ==
+      std::count(bytes.begin(), bytes.end(), '?'))
+    return as_it_is;
   std::string utf8;
   for (const char c : bytes) {
     const auto byte = static_cast<unsigned char>(c);
@@ -98,7 +105,8 @@ HeaderName read_header_name(std::string_view cell, std::string_view line_unit) {
   h.name = h.whole;
   if (!take_bracketed(h) && !take_parted(h)) take_ending(h);
   std::string below = header_text(line_unit);
-  if (below.size() > 1 && ((below.front() == '[' && below.back() == ']') || (below.front() == '(' && below.back() == ')')))
+  if (below.size() > 1 && ((below.front() == '[' && below.back() == ']') ||
+                           (below.front() == '(' && below.back() == ')')))
     below = below.substr(1, below.size() - 2);
   if (!below.empty() && below != "-" && below != "--") {
     h.unit = below;
@@ -133,7 +141,8 @@ std::string plain_letters(std::string_view name) {
   return out;
 }
 
-std::optional<std::string> nearest_name(const std::vector<std::string>& names, std::string_view wanted) {
+std::optional<std::string> nearest_name(const std::vector<std::string>& names,
+                                        std::string_view wanted) {
   const std::string meant = plain_letters(wanted.substr(0, k_longest_compared));
   std::optional<std::string> best;
   std::size_t least = 1000;
@@ -149,8 +158,10 @@ std::optional<std::string> nearest_name(const std::vector<std::string>& names, s
 
 Message list_of_names(const std::vector<std::string>& names) {
   List list;
-  for (std::size_t i = 0; i < names.size() && i < k_max_listed; ++i) list.items.push_back(msg("'{}'", one_line(names[i])));
-  return names.size() > k_max_listed ? msg("{} and {} more", list, names.size() - k_max_listed) : msg("{}", list);
+  for (std::size_t i = 0; i < names.size() && i < k_max_listed; ++i)
+    list.items.push_back(msg("'{}'", one_line(names[i])));
+  return names.size() > k_max_listed ? msg("{} and {} more", list, names.size() - k_max_listed)
+                                     : msg("{}", list);
 }
 
 }  // namespace cavum::explain

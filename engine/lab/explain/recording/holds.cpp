@@ -48,8 +48,10 @@ Holds find_holds(const Recording& r, double q) {
     auto& programme = programmes.emplace_back();
     const auto runs = runs_of(r, s, q);
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      const double before_s = i > 0 ? runs[i - 1].lasts_s : 0.0, after_s = i + 1 < runs.size() ? runs[i + 1].lasts_s : 0.0;
-      if (runs[i].lasts_s < k_hold_s || runs[i].lasts_s <= k_longer * std::max(before_s, after_s)) continue;
+      const double before_s = i > 0 ? runs[i - 1].lasts_s : 0.0,
+                   after_s = i + 1 < runs.size() ? runs[i + 1].lasts_s : 0.0;
+      if (runs[i].lasts_s < k_hold_s || runs[i].lasts_s <= k_longer * std::max(before_s, after_s))
+        continue;
       const long cell = std::lround(r.x_mm[runs[i].begin] / q);
       out.holds.push_back({runs[i].begin, runs[i].end, 0});
       cell_of_hold.push_back(cell);
@@ -62,23 +64,28 @@ Holds find_holds(const Recording& r, double q) {
   std::vector<std::size_t> place_of(all.size());
   for (std::size_t i = 0; i < all.size();) {
     const bool two = i + 1 < all.size() && all[i + 1] == all[i] + 1;
-    for (std::size_t j = i; j <= i + (two ? 1 : 0); ++j) place_of[j] = out.places_mm.size();
-    out.places_mm.push_back((static_cast<double>(all[i]) + (two ? 0.5 : 0.0)) * q);
+    for (std::size_t j = i; j <= i + (two ? 1 : 0); ++j) place_of[j] = out.positions_mm.size();
+    out.positions_mm.push_back((static_cast<double>(all[i]) + (two ? 0.5 : 0.0)) * q);
     i += two ? 2 : 1;
   }
   for (std::size_t h = 0; h < out.holds.size(); ++h)
-    out.holds[h].place = place_of[static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), cell_of_hold[h]) - all.begin())];
+    out.holds[h].place = place_of[static_cast<std::size_t>(
+        std::lower_bound(all.begin(), all.end(), cell_of_hold[h]) - all.begin())];
   for (std::size_t i = 1; i < programmes.size(); ++i)
-    out.repeated += share_common(programmes[i - 1], programmes[i]) / static_cast<double>(programmes.size() - 1);
+    out.repeated +=
+        share_common(programmes[i - 1], programmes[i]) / static_cast<double>(programmes.size() - 1);
   return out;
 }
 
-Series replaced_holds(const Recording& r, const Series& x_mm, const Holds& holds, double q, Random& random) {
+Series replaced_holds(const Recording& r, const Series& x_mm, const Holds& holds, double q,
+                      Random& random) {
   const double start = random.uniform(0.0, 1.0), step = random.uniform(-0.5, 0.5);
   std::vector<double> at_mm;
-  const double span = holds.places_mm.size() > 1 ? holds.places_mm.back() - holds.places_mm.front() : 1.0;
-  for (const double x : holds.places_mm) {
-    const double turns = start + step * static_cast<double>(holds.places_mm.size() - 1) * (x - holds.places_mm.front()) / span;
+  const double span =
+      holds.positions_mm.size() > 1 ? holds.positions_mm.back() - holds.positions_mm.front() : 1.0;
+  for (const double x : holds.positions_mm) {
+    const double turns = start + step * static_cast<double>(holds.positions_mm.size() - 1) *
+                                     (x - holds.positions_mm.front()) / span;
     at_mm.push_back(x + q * (turns - std::round(turns)));
   }
   Series out = x_mm;
@@ -94,7 +101,9 @@ Series replaced_holds(const Recording& r, const Series& x_mm, const Holds& holds
       const Eigen::Index to = more ? holds.holds[next].begin : s.end;
       const double off_to = more ? off_at(holds.holds[next], to) : off;
       double way = 0.0, gone = 0.0;
-      const auto stride = [&](Eigen::Index i) { return i > s.begin && i < s.end ? std::fabs(x_mm[i] - x_mm[i - 1]) : 0.0; };
+      const auto stride = [&](Eigen::Index i) {
+        return i > s.begin && i < s.end ? std::fabs(x_mm[i] - x_mm[i - 1]) : 0.0;
+      };
       for (Eigen::Index i = from; i <= to; ++i) way += stride(i);
       for (Eigen::Index i = from; i < to; ++i) {
         gone += stride(i);

@@ -16,7 +16,9 @@ constexpr double k_min_rows = 100.0, k_alike = 0.05, k_held = 0.01;
 /// Sums of products of X, V and F over rows in contact.
 struct Sums {
   double rows = 0, xx = 0, xv = 0, vv = 0, xf = 0, vf = 0;
-  void add(double x, double v, double f) { ++rows, xx += x * x, xv += x * v, vv += v * v, xf += x * f, vf += v * f; }
+  void add(double x, double v, double f) {
+    ++rows, xx += x * x, xv += x * v, vv += v * v, xf += x * f, vf += v * f;
+  }
   /// k and c, drawn to `near` by a weight of 1 % of the sums.
   [[nodiscard]] Eigen::Vector2d solved(Eigen::Vector2d near) const {
     const double hx = k_held * xx, hv = k_held * vv + 1e-12;
@@ -65,11 +67,16 @@ void set_layers(Recording& r) {
   }
   List layers{{}, true};
   for (const auto& [name, kc] : fitted) {
-    const Number k = as_unit(std::round(1e4 * kc[0]) / 1e4, cavum::Unit::n_per_mm), c = as_number(std::round(1e4 * kc[1]) / 1e4);
-    layers.items.push_back(name == reference ? msg("layer {} (k and c below): k {}, c {} N s/mm", as_number(name), k, c)
-                                             : msg("layer {}: k {}, c {} N s/mm", as_number(name), k, c));
+    const Number k = as_unit(std::round(1e4 * kc[0]) / 1e4, cavum::Unit::n_per_mm),
+                 c = as_number(std::round(1e4 * kc[1]) / 1e4);
+    layers.items.push_back(
+        name == reference
+            ? msg("layer {} (k and c below): k {}, c {} N s/mm", as_number(name), k, c)
+            : msg("layer {}: k {}, c {} N s/mm", as_number(name), k, c));
   }
-  r.notes.emplace_back("layers", std::vector{"layers"}, msg("layers have k and c of their own, words numbered in order of appearance: {}", layers));
+  r.notes.emplace_back(
+      "layers", std::vector{"layers"},
+      msg("layers have k and c of their own, words numbered in order of appearance: {}", layers));
 }
 
 }  // namespace cavum::explain

@@ -1,4 +1,5 @@
-// How a file writes its numbers: with a decimal point or a decimal comma. Separators of thousands are refused, not guessed.
+// How a file writes its numbers: with a decimal point or a decimal comma. Separators of thousands
+// are refused, not guessed.
 #pragma once
 
 #include <optional>
@@ -8,7 +9,8 @@ namespace cavum::explain {
 
 enum class Decimal { point, comma };
 
-/// The number that is all of a cell, finite; a + or the sign U+2212 before it is allowed. None when it is no number.
+/// The number that is all of a cell, finite; a + or the sign U+2212 before it is allowed. None when
+/// it is no number.
 [[nodiscard]] std::optional<double> number_in(std::string_view cell, Decimal decimal) noexcept;
 /// True for an empty cell, and for nan, NA, -, --- and their like.
 [[nodiscard]] bool is_missing(std::string_view cell) noexcept;

@@ -37,7 +37,8 @@ void look_at_stamps(const Recording& r, Overview& out) {
     }
   }
   if (intervals.empty()) return;
-  const double n = static_cast<double>(intervals.size()), mean = sum / n, middle = median(std::move(intervals));
+  const double n = static_cast<double>(intervals.size()), mean = sum / n,
+               middle = median(std::move(intervals));
   out.rate_hz = middle > 0.0 ? 1.0 / middle : 0.0;
   out.uneven = mean > 0.0 ? std::sqrt(std::max(0.0, squares / n - mean * mean)) / mean : 0.0;
 }
@@ -47,7 +48,11 @@ void look_at_columns(const Recording& r, Overview& out) {
     const Series& values = series_of(r, role);
     const ColumnReading* column = r.reading ? r.reading->columns.of(role) : nullptr;
     if (values.size() == 0) continue;
-    ColumnSeen seen{.name = contract_name(role), .header = contract_name(role), .unit = "", .low = values.minCoeff(), .high = values.maxCoeff()};
+    ColumnSeen seen{.name = contract_name(role),
+                    .header = contract_name(role),
+                    .unit = "",
+                    .low = values.minCoeff(),
+                    .high = values.maxCoeff()};
     if (column != nullptr) {
       seen.header = column->header.whole;
       seen.unit = column->unit.shown;
@@ -58,7 +63,11 @@ void look_at_columns(const Recording& r, Overview& out) {
     out.columns.push_back(seen);
   }
   for (const auto& [name, values] : r.columns)
-    out.columns.push_back({.name = name, .header = name, .unit = "", .low = values.minCoeff(), .high = values.maxCoeff()});
+    out.columns.push_back({.name = name,
+                           .header = name,
+                           .unit = "",
+                           .low = values.minCoeff(),
+                           .high = values.maxCoeff()});
 }
 
 }  // namespace
@@ -70,7 +79,10 @@ Overview overview_of(const Recording& r) {
   look_at_columns(r, out);
   if (r.reading) {
     const TableForm& form = r.reading->form;
-    out.separator = form.separator == '\t' ? "tab" : form.separator == ' ' ? "white space" : form.separator == ';' ? "semicolon" : "comma";
+    out.separator = form.separator == '\t'  ? "tab"
+                    : form.separator == ' ' ? "white space"
+                    : form.separator == ';' ? "semicolon"
+                                            : "comma";
     out.decimal = form.decimal == Decimal::comma ? "comma" : "point";
     out.time_words = r.reading->time_words;
     out.header_line = form.header_line;
@@ -83,7 +95,8 @@ Overview overview_of(const Recording& r) {
   force.rig.position_quantum_mm = 0.0;
   out.force_quantum_n = seen_quantum_mm(force);
   out.conventions = judge_conventions(r);
-  if (out.conventions.first_clear() == nullptr) out.faults = data_faults(r);  // else they would be of another thing
+  if (out.conventions.first_clear() == nullptr)
+    out.faults = data_faults(r);  // else they would be of another thing
   out.notes = r.notes;
   return out;
 }

@@ -1,5 +1,6 @@
-// What was understood of a recording before anything is explained: rows, sessions, rate, columns with units and ranges, signs, where contact begins,
-// steps of the instruments, and what would be refused. For `cavum explain --dry-run`.
+// What was understood of a recording before anything is explained: rows, sessions, rate, columns
+// with units and ranges, signs, where contact begins, steps of the instruments, and what would be
+// refused. For `cavum explain --dry-run`.
 #pragma once
 
 #include <string>
@@ -41,7 +42,9 @@ struct Overview {
   std::vector<DataFault> faults;  ///< data_faults; not looked for where a doubt is clear
   Facts notes;
   /// `explain` would refuse it, or call it a data fault.
-  [[nodiscard]] bool refused() const { return conventions.first_clear() != nullptr || !faults.empty(); }
+  [[nodiscard]] bool refused() const {
+    return conventions.first_clear() != nullptr || !faults.empty();
+  }
 };
 
 [[nodiscard]] Overview overview_of(const Recording& recording);

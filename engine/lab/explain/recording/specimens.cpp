@@ -14,7 +14,8 @@ constexpr std::size_t k_min_sessions = 8;
 constexpr double k_scatter = 0.2;
 constexpr double k_onset = 0.02;  // of the peak force
 
-constexpr double k_follows = 0.5;  // correlation of force and depth below the surface: less is no pressing
+constexpr double k_follows =
+    0.5;  // correlation of force and depth below the surface: less is no pressing
 
 struct Specimen {
   double surface_mm = 0, depth_mm = 0, peak_n = 0;
@@ -22,7 +23,8 @@ struct Specimen {
 
 /// Correlation of the force with the depth below the surface.
 double correlation(const Recording& r, const SessionRows& s, double surface_mm) {
-  const Series depth = (r.x_mm.segment(s.begin, s.end - s.begin) - surface_mm).max(0.0), force = r.f_n.segment(s.begin, s.end - s.begin);
+  const Series depth = (r.x_mm.segment(s.begin, s.end - s.begin) - surface_mm).max(0.0),
+               force = r.f_n.segment(s.begin, s.end - s.begin);
   const Series a = depth - depth.mean(), b = force - force.mean();
   return (a * b).sum() / std::sqrt(std::max(1e-300, a.square().sum() * b.square().sum()));
 }
@@ -34,7 +36,8 @@ Specimen specimen_of(const Recording& r, const SessionRows& s) {
   // scatter of the force before it rises: differences of neighbours in its first tenth
   const Eigen::Index early = std::max<Eigen::Index>(2, top / 4);
   double square = 0.0;
-  for (Eigen::Index i = 1; i < early; ++i) square += std::pow(r.f_n[s.begin + i] - r.f_n[s.begin + i - 1], 2);
+  for (Eigen::Index i = 1; i < early; ++i)
+    square += std::pow(r.f_n[s.begin + i] - r.f_n[s.begin + i - 1], 2);
   const double noise = std::sqrt(0.5 * square / static_cast<double>(early - 1));
   const double threshold = std::max(k_onset * out.peak_n, 3.0 * noise);
   Eigen::Index onset = s.begin + top;
@@ -58,7 +61,8 @@ bool are_specimens(const Recording& r) {
     square += k * k;
   }
   const double n = static_cast<double>(r.sessions.size()), mean = sum / n;
-  return follows > k_follows * n && std::sqrt(std::max(0.0, square / n - mean * mean)) > k_scatter * mean;
+  return follows > k_follows * n &&
+         std::sqrt(std::max(0.0, square / n - mean * mean)) > k_scatter * mean;
 }
 
 Recording on_common_scale(const Recording& r) {
@@ -79,7 +83,8 @@ Recording on_common_scale(const Recording& r) {
     if (r.v_mm_s.size() > 0) out.v_mm_s.segment(s.begin, n) *= along;
   }
   out.specimens = true;
-  out.rig.position_quantum_mm = 0.0;  // no longer one step for all; it was fine enough to be found again if it matters
+  out.rig.position_quantum_mm =
+      0.0;  // no longer one step for all; it was fine enough to be found again if it matters
   out.rig.force_quantum_n = 0.0;
   out.rig.force_limit_n.reset();
   out.notes.emplace_back(

@@ -23,12 +23,15 @@ std::optional<Recording> in_stretches(const Recording& r) {
   Eigen::Index begin = 0;
   for (Eigen::Index i = 1; i <= k_stretches; ++i) {
     const Eigen::Index even = i * r.rows() / k_stretches;
-    const Eigen::Index end = i == k_stretches ? r.rows() : cut_near(r.x_mm, even, r.rows() / (4 * k_stretches));
+    const Eigen::Index end =
+        i == k_stretches ? r.rows() : cut_near(r.x_mm, even, r.rows() / (4 * k_stretches));
     out.sessions.push_back({fmt::format("{}, stretch {}", name, i), begin, end});
     begin = end;
   }
-  out.notes.emplace_back("stretches", std::vector{"stretches"},
-                         msg("one session alone: {} stretches of it are taken as sessions; several sessions tell more", k_stretches));
+  out.notes.emplace_back(
+      "stretches", std::vector{"stretches"},
+      msg("one session alone: {} stretches of it are taken as sessions; several sessions tell more",
+          k_stretches));
   return out;
 }
 

@@ -1,4 +1,5 @@
-// The rows of a table whose form is known, one after the other: comments and blank lines passed over, cells counted, limits kept.
+// The rows of a table whose form is known, one after the other: comments and blank lines passed
+// over, cells counted, limits kept.
 #pragma once
 
 #include <string>
@@ -11,7 +12,8 @@
 namespace cavum::explain {
 
 /// Most rows, columns and sessions of a recording.
-inline constexpr std::size_t k_max_recording_rows = 5'000'000;  ///< 7 hours at 200 Hz; beyond that memory, not time, is the limit
+inline constexpr std::size_t k_max_recording_rows =
+    5'000'000;  ///< 7 hours at 200 Hz; beyond that memory, not time, is the limit
 inline constexpr std::size_t k_max_columns = 200;
 inline constexpr std::size_t k_max_sessions = 1000;
 
@@ -23,8 +25,9 @@ class RowReader {
   /// Cells of the header, and of the line of units below it (as many, empty where there is none).
   [[nodiscard]] const std::vector<std::string>& header() const noexcept { return header_; }
   [[nodiscard]] const std::vector<std::string>& units() const noexcept { return units_; }
-  /// Goes on to the next row. False at the end. Throws Error for a row with more or fewer cells than the header (an empty last one apart), for a
-  /// quote that does not end, and beyond the limits.
+  /// Goes on to the next row. False at the end. Throws Error for a row with more or fewer cells
+  /// than the header (an empty last one apart), for a quote that does not end, and beyond the
+  /// limits.
   bool next();
   /// Of the row; they live as long as the text.
   [[nodiscard]] const std::vector<std::string_view>& cells() const noexcept { return cells_; }

@@ -19,11 +19,14 @@ struct KnownUnit {
   bool mass_word = false;
 };
 
-constexpr double k_kgf_n = 9.80665, k_lbf_n = 4.4482216152605, k_in_mm = 25.4, k_deg = std::numbers::pi / 180.0;
+constexpr double k_kgf_n = 9.80665, k_lbf_n = 4.4482216152605, k_in_mm = 25.4,
+                 k_deg = std::numbers::pi / 180.0;
 
-// MN is no mN, so capitals count; those that nobody means otherwise are listed. µ is written u here.
+// MN is no mN, so capitals count; those that nobody means otherwise are listed. µ is written u
+// here.
 constexpr std::array k_known{
-    KnownUnit{Quantity::time, "s", 1.0, " s sec secs second seconds sekunde sekunden Sekunden S Sec "},
+    KnownUnit{Quantity::time, "s", 1.0,
+              " s sec secs second seconds sekunde sekunden Sekunden S Sec "},
     KnownUnit{Quantity::time, "ms", 1e-3, " ms msec millisecond milliseconds "},
     KnownUnit{Quantity::time, "µs", 1e-6, " us usec microsecond microseconds "},
     KnownUnit{Quantity::time, "min", 60.0, " min minute minutes "},
@@ -31,7 +34,8 @@ constexpr std::array k_known{
     KnownUnit{Quantity::length, "m", 1e3, " m metre metres meter meters "},
     KnownUnit{Quantity::length, "cm", 10.0, " cm "},
     KnownUnit{Quantity::length, "mm", 1.0, " mm MM millimetre millimetres millimeter millimeters "},
-    KnownUnit{Quantity::length, "µm", 1e-3, " um micron microns micrometre micrometres micrometer micrometers "},
+    KnownUnit{Quantity::length, "µm", 1e-3,
+              " um micron microns micrometre micrometres micrometer micrometers "},
     KnownUnit{Quantity::length, "nm", 1e-6, " nm "},
     KnownUnit{Quantity::length, "in", k_in_mm, " in inch inches IN \" "},
     KnownUnit{Quantity::length, "mil", 1e-3 * k_in_mm, " mil mils thou "},
@@ -57,7 +61,8 @@ constexpr std::array k_known{
 constexpr std::size_t k_longest_name = 40;
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) text.replace(at, from.size(), to);
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
 }
 
 /// Without blanks and signs of multiplication, µ as u, "s-1" and its like as "/s".
@@ -65,8 +70,10 @@ std::string plain_name(std::string_view given) {
   if (given.size() > k_longest_name) return "";
   std::string name(given);
   for (const char* micro : {"\xc2\xb5", "\xce\xbc", "\xb5"}) replace_all(name, micro, "u");
-  for (const char* per_s : {"s\xe2\x81\xbb\xc2\xb9", "s^-1", "s-1", "s**-1"}) replace_all(name, per_s, "/s");
-  for (const char* nothing : {" ", "\xc2\xa0", "\xc2\xb7", "\xb7", "\xe2\x8b\x85", "*", "."}) replace_all(name, nothing, "");
+  for (const char* per_s : {"s\xe2\x81\xbb\xc2\xb9", "s^-1", "s-1", "s**-1"})
+    replace_all(name, per_s, "/s");
+  for (const char* nothing : {" ", "\xc2\xa0", "\xc2\xb7", "\xb7", "\xe2\x8b\x85", "*", "."})
+    replace_all(name, nothing, "");
   replace_all(name, "//", "/");
   return name;
 }
@@ -74,7 +81,9 @@ std::string plain_name(std::string_view given) {
 const KnownUnit* known(std::string_view name, Quantity quantity) {
   if (name.empty() || name.find(' ') != std::string_view::npos) return nullptr;
   for (const KnownUnit& unit : k_known)
-    if (unit.quantity == quantity && unit.names.find(fmt::format(" {} ", name)) != std::string_view::npos) return &unit;
+    if (unit.quantity == quantity &&
+        unit.names.find(fmt::format(" {} ", name)) != std::string_view::npos)
+      return &unit;
   return nullptr;
 }
 
@@ -92,7 +101,8 @@ std::optional<Unit> find_speed(std::string_view name) {
   if (per == nullptr) return std::nullopt;
   for (const Quantity way : {Quantity::length, Quantity::angle})
     if (const KnownUnit* of = known(name.substr(0, at), way))
-      return Unit{fmt::format("{}/{}", of->shown, per->shown), of->factor / per->factor, way == Quantity::angle, false};
+      return Unit{fmt::format("{}/{}", of->shown, per->shown), of->factor / per->factor,
+                  way == Quantity::angle, false};
   return std::nullopt;
 }
 
@@ -117,7 +127,8 @@ std::optional<Unit> find_unit(std::string_view given, Role role) {
 
 bool is_unit(std::string_view name) {
   constexpr std::array k_roles{Role::time, Role::position, Role::speed, Role::force};
-  return std::any_of(k_roles.begin(), k_roles.end(), [&](Role role) { return find_unit(name, role).has_value(); });
+  return std::any_of(k_roles.begin(), k_roles.end(),
+                     [&](Role role) { return find_unit(name, role).has_value(); });
 }
 
 bool is_other_unit(std::string_view name) {
@@ -152,15 +163,20 @@ Unit at_lever(const Unit& unit, Role role, double lever_mm) {
 }
 
 Message known_units(Role role) {
-  if (role == Role::speed) return msg("{} (a length or an angle over a time)", "mm/s, mm/min, m/s, µm/s, in/s, rad/s, deg/s");
+  if (role == Role::speed)
+    return msg("{} (a length or an angle over a time)",
+               "mm/s, mm/min, m/s, µm/s, in/s, rad/s, deg/s");
   std::vector<std::string> names;
   for (const KnownUnit& unit : k_known) {
     const bool fits = (role == Role::time && unit.quantity == Quantity::time) ||
-                      (role == Role::position && (unit.quantity == Quantity::length || unit.quantity == Quantity::angle)) ||
-                      (role == Role::force && (unit.quantity == Quantity::force || unit.quantity == Quantity::torque));
+                      (role == Role::position &&
+                       (unit.quantity == Quantity::length || unit.quantity == Quantity::angle)) ||
+                      (role == Role::force &&
+                       (unit.quantity == Quantity::force || unit.quantity == Quantity::torque));
     if (fits && !unit.mass_word) names.emplace_back(unit.shown);
   }
-  return role == Role::force ? msg("{}; g, kg, lb and oz as what they weigh", list_of(names)) : msg("{}", list_of(names));
+  return role == Role::force ? msg("{}; g, kg, lb and oz as what they weigh", list_of(names))
+                             : msg("{}", list_of(names));
 }
 
 const char* contract_name(Role role) noexcept {
@@ -170,7 +186,9 @@ const char* contract_name(Role role) noexcept {
 
 std::optional<Role> role_of(std::string_view name) {
   for (const Role role : {Role::time, Role::position, Role::speed, Role::force})
-    if (const std::string_view contract = contract_name(role); name == contract || name == contract.substr(0, 1)) return role;
+    if (const std::string_view contract = contract_name(role);
+        name == contract || name == contract.substr(0, 1))
+      return role;
   return std::nullopt;
 }
 

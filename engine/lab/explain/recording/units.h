@@ -1,4 +1,5 @@
-// Units that rigs write: N, lbf, grams; mm, inches, degrees on a lever; s, ms. Each by its factor to ours (N, mm, mm/s, s).
+// Units that rigs write: N, lbf, grams; mm, inches, degrees on a lever; s, ms. Each by its factor
+// to ours (N, mm, mm/s, s).
 #pragma once
 
 #include <optional>
@@ -14,13 +15,15 @@ enum class Role { time, position, speed, force };
 
 /// A unit as it applies to one role.
 struct Unit {
-  std::string shown;       ///< as we write it: "mN", "µm", "mm/min"
-  double factor = 1.0;     ///< ours over theirs: value in s, mm, mm/s or N = factor × value
-  bool on_lever = false;   ///< an angle or a torque: the factor holds at a lever of 1 mm
-  bool mass_word = false;  ///< grams, kilograms, pounds or ounces: taken for the force that they weigh
+  std::string shown;      ///< as we write it: "mN", "µm", "mm/min"
+  double factor = 1.0;    ///< ours over theirs: value in s, mm, mm/s or N = factor × value
+  bool on_lever = false;  ///< an angle or a torque: the factor holds at a lever of 1 mm
+  bool mass_word =
+      false;  ///< grams, kilograms, pounds or ounces: taken for the force that they weigh
 };
 
-/// The unit of that name, for that role; µ as U+00B5, U+03BC or the Latin-1 byte; none when it is unknown or belongs to another quantity.
+/// The unit of that name, for that role; µ as U+00B5, U+03BC or the Latin-1 byte; none when it is
+/// unknown or belongs to another quantity.
 [[nodiscard]] std::optional<Unit> find_unit(std::string_view name, Role role);
 /// True for a unit of any role: "mm", "N", "deg/s".
 [[nodiscard]] bool is_unit(std::string_view name);

@@ -8,7 +8,8 @@
 namespace cavum::explain {
 namespace {
 
-/// Shapes of zeros, but for at most two numbers that are at an end of their range: no form of a law takes more to be seen.
+/// Shapes of zeros, but for at most two numbers that are at an end of their range: no form of a law
+/// takes more to be seen.
 std::vector<std::vector<double>> forms_of(const std::vector<ShapeRange>& shape) {
   std::vector<std::vector<double>> out{std::vector<double>(shape.size(), 0.0)};
   for (int set = 0; set < 2; ++set)
@@ -49,7 +50,8 @@ std::string ranges(const TermKind& kind) {
 std::vector<std::string> parameter_names(const Mechanism& m) {
   std::vector<std::string> out;
   for (const auto& shape : forms_of(m.shape))
-    for (const auto& p : m.parameters(shape, {1.0, 2.0}, {1.0, 1.0}))  // none has more coefficients that are its own
+    for (const auto& p : m.parameters(shape, {1.0, 2.0},
+                                      {1.0, 1.0}))  // none has more coefficients that are its own
       if (std::find(out.begin(), out.end(), p.name) == out.end()) out.push_back(p.name);
   return out;
 }
@@ -67,16 +69,17 @@ std::string laws_page() {
          "| law | adds, N | what it is | found as | felt in an exam | needs | variant of | shown best by |\n"
          "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
   for (const auto& m : mechanisms())
-    out << "| " << m.name << " | " << cell(m.equation) << " | " << m.words << " | " << listed(parameter_names(m), text) << " | "
-        << (m.term != nullptr ? "yes" : "no") << " | " << listed(m.needs, text) << " | " << (m.variant_of != nullptr ? m.variant_of : "") << " | "
+    out << "| " << m.name << " | " << cell(m.equation) << " | " << m.words << " | "
+        << listed(parameter_names(m), text) << " | " << (m.term != nullptr ? "yes" : "no") << " | "
+        << listed(m.needs, text) << " | " << (m.variant_of != nullptr ? m.variant_of : "") << " | "
         << m.separate << " |\n";
   out << "\n## Force terms\nF in these is the law above without terms. The name of a parameter ends in its unit; beside it the range, and in "
          "brackets the value when a file does not give "
          "it.\n\n"
          "| `kind` | adds, N | parameters | source of the form | notes, and values without a source |\n| --- | --- | --- | --- | --- |\n";
   for (const auto& kind : term_kinds())
-    out << "| " << kind.name << " | " << cell(kind.adds) << " | " << ranges(kind) << " | " << cell(kind.source) << " | " << cell(kind.notes)
-        << " |\n";
+    out << "| " << kind.name << " | " << cell(kind.adds) << " | " << ranges(kind) << " | "
+        << cell(kind.source) << " | " << cell(kind.notes) << " |\n";
   return out.str();
 }
 

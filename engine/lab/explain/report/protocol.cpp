@@ -10,7 +10,8 @@ namespace cavum::explain {
 namespace {
 
 constexpr double k_rate_hz = 200.0;
-constexpr double k_acceleration_mm_s2 = 10.0;  // reached within 0.1 s at the fastest speed: inertia and lags show, a rig follows
+constexpr double k_acceleration_mm_s2 =
+    10.0;  // reached within 0.1 s at the fastest speed: inertia and lags show, a rig follows
 
 struct Part {
   double depth_mm = 0;    ///< to go to, positive = into the tooth
@@ -19,7 +20,8 @@ struct Part {
   bool spinning = false;
 };
 
-/// One session: strokes in air at four speeds, then four presses, each to two depths with a reversal in contact.
+/// One session: strokes in air at four speeds, then four presses, each to two depths with a
+/// reversal in contact.
 std::vector<Part> parts() {
   std::vector<Part> p{{-0.8, 0, 2.0, false}};
   const double speeds[] = {0.1, 0.25, 0.5, 1.0};
@@ -49,17 +51,20 @@ std::string protocol_motion_csv() {
   double depth = -0.8;
   long row = 0;
   const auto write = [&](double at, bool spinning) {
-    out += fmt::format("{:.3f},0,0,{:.6f},1,0,0,0,{}\n", static_cast<double>(row) / k_rate_hz, -at, spinning ? 1 : 0);
+    out += fmt::format("{:.3f},0,0,{:.6f},1,0,0,0,{}\n", static_cast<double>(row) / k_rate_hz, -at,
+                       spinning ? 1 : 0);
     ++row;
   };
   for (const auto& part : parts()) {
     if (part.speed_mm_s <= 0.0) {
-      for (int i = 0; i < static_cast<int>(part.hold_s * k_rate_hz); ++i) write(depth, part.spinning);
+      for (int i = 0; i < static_cast<int>(part.hold_s * k_rate_hz); ++i)
+        write(depth, part.spinning);
       continue;
     }
     // trapezium of speed
     const double way = std::fabs(part.depth_mm - depth), sign = part.depth_mm > depth ? 1.0 : -1.0;
-    const double v = std::min(part.speed_mm_s, std::sqrt(way * k_acceleration_mm_s2)), ramp = v / k_acceleration_mm_s2;
+    const double v = std::min(part.speed_mm_s, std::sqrt(way * k_acceleration_mm_s2)),
+                 ramp = v / k_acceleration_mm_s2;
     const double total = way / v + ramp;
     for (double t = 0.0; t < total; t += 1.0 / k_rate_hz) {
       const double rest = total - t;

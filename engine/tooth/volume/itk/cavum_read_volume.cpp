@@ -1,5 +1,6 @@
-// cavum-read-volume PATH: reads one volume for `cavum tooth import` and writes it to descriptor 3 as volume_wire.h says. A program of its own, so
-// that nothing that a damaged file does to the libraries that read it reaches Cavum.
+// cavum-read-volume PATH: reads one volume for `cavum tooth import` and writes it to descriptor 3
+// as volume_wire.h says. A program of its own, so that nothing that a damaged file does to the
+// libraries that read it reaches Cavum.
 #include <signal.h>
 #include <sys/prctl.h>
 
@@ -10,7 +11,8 @@
 
 int main(int argc, char** argv) {
   if (argc != 2) {
-    std::fprintf(stderr, "cavum-read-volume PATH: a part of `cavum tooth import`, which calls it\n");
+    std::fprintf(stderr,
+                 "cavum-read-volume PATH: a part of `cavum tooth import`, which calls it\n");
     return 2;
   }
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // whoever waits for the volume may be gone

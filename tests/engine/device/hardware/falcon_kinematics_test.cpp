@@ -1,4 +1,5 @@
-// The Falcon's mechanism against a second solution: the nine equations of its loops, in other unknowns and in long double, and three spheres.
+// The Falcon's mechanism against a second solution: the nine equations of its loops, in other
+// unknowns and in long double, and three spheres.
 #include "engine/device/hardware/falcon_kinematics.h"
 
 #include <gtest/gtest.h>
@@ -16,8 +17,9 @@ namespace {
 using Real = long double;
 using testing_basics::drawn_seed;
 
-/// Walks along the links: origin, motor, knee, link, shin (a parallelogram turned by `swing` in the arm's plane and leaning by `lean` out of it),
-/// link, grip. Nine unknowns: swing and lean of each arm, and the grip's place; nine equations: each arm ends at the grip. Newton with differences in
+/// Walks along the links: origin, motor, knee, link, shin (a parallelogram turned by `swing` in the
+/// arm's plane and leaning by `lean` out of it), link, grip. Nine unknowns: swing and lean of each
+/// arm, and the grip's place; nine equations: each arm ends at the grip. Newton with differences in
 /// long double.
 std::optional<Vec3> by_loops(const FalconGeometry& g, const FalconAngles& angles) {
   std::array<Real, 9> x{};
@@ -29,7 +31,8 @@ std::optional<Vec3> by_loops(const FalconGeometry& g, const FalconAngles& angles
   const auto equations = [&](const std::array<Real, 9>& at) {
     std::array<Real, 9> left{};
     for (std::size_t arm = 0; arm < 3; ++arm) {
-      const Real leg = g.leg_rad[arm], thigh = angles[arm], swing = at[2 * arm], lean = at[2 * arm + 1];
+      const Real leg = g.leg_rad[arm], thigh = angles[arm], swing = at[2 * arm],
+                 lean = at[2 * arm + 1];
       const Real in_plane = static_cast<Real>(g.links) + static_cast<Real>(g.b) * sinl(lean);
       const Real u = g.r + g.a * cosl(thigh) + in_plane * cosl(swing) - g.c;
       const Real v = g.s + g.b * cosl(lean) - g.f;
@@ -61,7 +64,8 @@ std::optional<Vec3> by_loops(const FalconGeometry& g, const FalconAngles& angles
       for (std::size_t row = 0; row < 9; ++row) {
         if (row == pivot) continue;
         const Real share = m[row][pivot] / m[pivot][pivot];
-        for (std::size_t column = pivot; column < 10; ++column) m[row][column] -= share * m[pivot][column];
+        for (std::size_t column = pivot; column < 10; ++column)
+          m[row][column] -= share * m[pivot][column];
       }
     }
     Real size = 0;
@@ -76,14 +80,19 @@ std::optional<Vec3> by_loops(const FalconGeometry& g, const FalconAngles& angles
   return Vec3{static_cast<double>(x[6]), static_cast<double>(x[7]), static_cast<double>(x[8])};
 }
 
-/// Without short links each knee is the centre of a sphere of the shin's length on which the grip lies: their meeting in closed form.
+/// Without short links each knee is the centre of a sphere of the shin's length on which the grip
+/// lies: their meeting in closed form.
 Vec3 by_spheres(const FalconGeometry& g, const FalconAngles& angles) {
   std::array<std::array<Real, 3>, 3> k{};
   for (std::size_t arm = 0; arm < 3; ++arm) {
-    const Real leg = g.leg_rad[arm], u = g.r + g.a * cosl(angles[arm]) - g.c, v = static_cast<Real>(g.s) - g.f;
-    k[arm] = {u * cosl(leg) - v * sinl(leg), u * sinl(leg) + v * cosl(leg), g.a * sinl(static_cast<Real>(angles[arm]))};
+    const Real leg = g.leg_rad[arm], u = g.r + g.a * cosl(angles[arm]) - g.c,
+               v = static_cast<Real>(g.s) - g.f;
+    k[arm] = {u * cosl(leg) - v * sinl(leg), u * sinl(leg) + v * cosl(leg),
+              g.a * sinl(static_cast<Real>(angles[arm]))};
   }
-  const auto minus = [](auto p, auto q) { return std::array<Real, 3>{p[0] - q[0], p[1] - q[1], p[2] - q[2]}; };
+  const auto minus = [](auto p, auto q) {
+    return std::array<Real, 3>{p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+  };
   const auto times = [](auto p, auto q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; };
   auto ex = minus(k[1], k[0]);
   const Real d = sqrtl(times(ex, ex));
@@ -93,12 +102,14 @@ Vec3 by_spheres(const FalconGeometry& g, const FalconAngles& angles) {
   std::array<Real, 3> ey{to_third[0] - i * ex[0], to_third[1] - i * ex[1], to_third[2] - i * ex[2]};
   const Real j = sqrtl(times(ey, ey));
   for (Real& e : ey) e /= j;
-  const std::array<Real, 3> ez{ex[1] * ey[2] - ex[2] * ey[1], ex[2] * ey[0] - ex[0] * ey[2], ex[0] * ey[1] - ex[1] * ey[0]};
+  const std::array<Real, 3> ez{ex[1] * ey[2] - ex[2] * ey[1], ex[2] * ey[0] - ex[0] * ey[2],
+                               ex[0] * ey[1] - ex[1] * ey[0]};
   const Real x = d / 2, y = (i * i + j * j) / (2 * j) - i * x / j, b = g.b;
   Real z = sqrtl(b * b - x * x - y * y);
   if (ez[2] < 0) z = -z;
   std::array<double, 3> p{};
-  for (std::size_t n = 0; n < 3; ++n) p[n] = static_cast<double>(k[0][n] + x * ex[n] + y * ey[n] + z * ez[n]);
+  for (std::size_t n = 0; n < 3; ++n)
+    p[n] = static_cast<double>(k[0][n] + x * ex[n] + y * ey[n] + z * ez[n]);
   return {p[0], p[1], p[2]};
 }
 
@@ -179,12 +190,14 @@ TEST(FalconKinematics, TheHandsWorkIsTheArmsWork) {
     FalconAngles angles{};
     std::array<Vec3, 3> columns;
     if (!falcon_angles(g, place, angles) || !falcon_jacobian(g, angles, place, columns)) continue;
-    const Vec3 force{any(random), any(random), any(random)}, way = Vec3{any(random), any(random), any(random)} * 1e-4;
+    const Vec3 force{any(random), any(random), any(random)},
+        way = Vec3{any(random), any(random), any(random)} * 1e-4;
     FalconAngles there{}, back{};
     ASSERT_TRUE(falcon_angles(g, place + way, there) && falcon_angles(g, place - way, back));
     const auto torques = falcon_torques_nmm(columns, force);
     double work_of_arms = 0.0;
-    for (std::size_t arm = 0; arm < 3; ++arm) work_of_arms += torques[arm] * (there[arm] - back[arm]) / 2;
+    for (std::size_t arm = 0; arm < 3; ++arm)
+      work_of_arms += torques[arm] * (there[arm] - back[arm]) / 2;
     EXPECT_NEAR(work_of_arms, dot(force, way), 1e-9) << "N·mm";
   }
 }

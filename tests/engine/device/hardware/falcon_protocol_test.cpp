@@ -22,7 +22,8 @@ FalconFrame answer_frame(const std::array<int, 3>& encoders, int homed, int butt
   for (const int encoder : encoders) {
     char hex[8];
     std::snprintf(hex, sizeof hex, "%04x", static_cast<unsigned>(encoder) & 0xffffu);
-    for (int i = 3; i >= 0; --i) f[at++] = static_cast<std::uint8_t>('A' + (hex[i] <= '9' ? hex[i] - '0' : hex[i] - 'a' + 10));
+    for (int i = 3; i >= 0; --i)
+      f[at++] = static_cast<std::uint8_t>('A' + (hex[i] <= '9' ? hex[i] - '0' : hex[i] - 'a' + 10));
   }
   f[13] = static_cast<std::uint8_t>(0x41 + homed * 16 + buttons);
   f[14] = 'A';
@@ -31,13 +32,18 @@ FalconFrame answer_frame(const std::array<int, 3>& encoders, int homed, int butt
 }
 
 TEST(FalconProtocol, CommandsAreBitExact) {
-  // each nibble is a letter from A = 0 to P = 15, lowest first; 4096 = 0x1000, -4096 = 0xf000, -1 = 0xffff, 1234 = 0x04d2
+  // each nibble is a letter from A = 0 to P = 15, lowest first; 4096 = 0x1000, -4096 = 0xf000, -1 =
+  // 0xffff, 1234 = 0x04d2
   const std::vector<std::pair<FalconCommand, std::string>> table{
       {{.motors = {0, 0, 0}, .lights = 0, .homing = false}, "<AAAAAAAAAAAAAA>"},
       {{.motors = {1, 2, 3}, .lights = 0, .homing = true}, "<BAAACAAADAAABA>"},
-      {{.motors = {4096, -4096, -1}, .lights = k_falcon_green, .homing = false}, "<AAABAAAPPPPPCA>"},
+      {{.motors = {4096, -4096, -1}, .lights = k_falcon_green, .homing = false},
+       "<AAABAAAPPPPPCA>"},
       {{.motors = {1234, -1234, 256}, .lights = k_falcon_red, .homing = true}, "<CNEAOCLPAABAJA>"},
-      {{.motors = {-2, 16, 4095}, .lights = k_falcon_red | k_falcon_blue | k_falcon_green, .homing = false}, "<OPPPABAAPPPAOA>"},
+      {{.motors = {-2, 16, 4095},
+        .lights = k_falcon_red | k_falcon_blue | k_falcon_green,
+        .homing = false},
+       "<OPPPABAAPPPAOA>"},
   };
   for (const auto& [command, wanted] : table) EXPECT_EQ(text(falcon_frame(command)), wanted);
 }
@@ -50,7 +56,8 @@ TEST(FalconProtocol, AnswersAreReadHoweverTheyAreCut) {
     std::vector<std::uint8_t> stream(random() % 20, 0x55);  // the end of something unknown
     for (int i = 0; i < 5; ++i) {
       std::array<int, 3> encoders{};
-      for (std::size_t n = 0; n < 3; ++n) encoders[n] = wanted.encoders[n] = static_cast<std::int16_t>(random());
+      for (std::size_t n = 0; n < 3; ++n)
+        encoders[n] = wanted.encoders[n] = static_cast<std::int16_t>(random());
       wanted.homed = static_cast<std::uint8_t>(random() % 8);
       wanted.buttons = static_cast<std::uint8_t>(random() % 16);
       const FalconFrame f = answer_frame(encoders, wanted.homed, wanted.buttons);
@@ -77,7 +84,8 @@ TEST(FalconProtocol, DamagedFramesAreGivenUpAndCounted) {
     const std::size_t at = random() % 16;
     if (at == k_empty) continue;
     do wrong[at] = static_cast<std::uint8_t>(random());
-    while (wrong[at] >= 0x41 && wrong[at] <= 0xc0);  // what no frame has inside; other changes are only another frame
+    while (wrong[at] >= 0x41 &&
+           wrong[at] <= 0xc0);  // what no frame has inside; other changes are only another frame
     if (wrong == good) continue;
     FalconParser parser;
     FalconAnswer answer;
@@ -94,9 +102,11 @@ TEST(FalconProtocol, TorquesBecomeCountsAndKeepTheirDirection) {
   // 100 N·mm at the arm are 13.1234 N·mm at the motor, 661.62 counts of 0.019835 N·mm
   EXPECT_EQ(falcon_counts(drive, {100, -100, 0}, cut), (std::array<std::int16_t, 3>{-662, 662, 0}));
   EXPECT_FALSE(cut);
-  EXPECT_EQ(falcon_counts(drive, {2000, -1000, 500}, cut), (std::array<std::int16_t, 3>{-4096, 2048, -1024}));
+  EXPECT_EQ(falcon_counts(drive, {2000, -1000, 500}, cut),
+            (std::array<std::int16_t, 3>{-4096, 2048, -1024}));
   EXPECT_TRUE(cut);
-  EXPECT_EQ(falcon_counts(drive, {std::nan(""), 1, 1}, cut), (std::array<std::int16_t, 3>{0, 0, 0}));
+  EXPECT_EQ(falcon_counts(drive, {std::nan(""), 1, 1}, cut),
+            (std::array<std::int16_t, 3>{0, 0, 0}));
   const auto angles = falcon_arm_angles(drive, {0, 1280, -640});
   EXPECT_NEAR(angles[0] * 180 / k_pi, 35.0, 1e-12);
   EXPECT_NEAR(angles[1] * 180 / k_pi, 35.0 + 360 / 7.62, 1e-9);
@@ -123,7 +133,8 @@ TEST(FalconProtocol, AnEncoderStepMovesTheGripByLessThanTheQuantum) {
         }
         ++places;
       }
-  std::printf("way of the grip per encoder step: mean %.4f mm, largest %.4f mm, %d places\n", sum / places, most, places);
+  std::printf("way of the grip per encoder step: mean %.4f mm, largest %.4f mm, %d places\n",
+              sum / places, most, places);
   EXPECT_GT(places, 200);
   EXPECT_LT(most, k_falcon_quantum_mm);
   EXPECT_GT(most, 0.8 * k_falcon_quantum_mm);

@@ -1,5 +1,5 @@
-// What the service of an Inverse3 says: the example of docs/inverse3.md is read as the page says, and what is damaged, too large or nonsense is
-// refused and never more than that.
+// What the service of an Inverse3 says: the example of docs/inverse3.md is read as the page says,
+// and what is damaged, too large or nonsense is refused and never more than that.
 #include "engine/device/hardware/inverse3_protocol.h"
 
 #include <gtest/gtest.h>
@@ -48,15 +48,22 @@ TEST(Inverse3Protocol, AnInventoryIsReadInMillimetresWithUnitDirections) {
 }
 
 TEST(Inverse3Protocol, WhatIsNoMessageIsRefused) {
-  for (const char* wrong : {"", "null", "[]", "7", "{\"inverse3\":7}", R"({"inverse3":[7]})", R"({"inverse3":[{"device_id":""}]})",
-                            R"({"inverse3":[{"device_id":"a\"b"}]})", R"({"inverse3":[{"device_id":"a","state":{"cursor_position":{"x":1,"y":1}}}]})",
-                            R"({"inverse3":[{"device_id":"a","state":{"cursor_position":{"x":"1","y":1,"z":1}}}]})",
-                            R"({"inverse3":[{"device_id":"a","state":{"cursor_position":{"x":3,"y":0,"z":0}}}]})",
-                            R"({"inverse3":[{"device_id":"a","state":{"cursor_position":{"x":1e999,"y":0,"z":0}}}]})",
-                            R"({"verse_grip":[{"device_id":"a","state":{"orientation":{"w":1}}}]})"})
-    EXPECT_EQ(code_of([&] { static_cast<void>(parse_inverse3(wrong)); }), DeviceError::malformed_message) << wrong;
-  for (const std::string& wrong : {std::string(k_inverse3_largest + 1, ' '), R"({"inverse3":)" + std::string(13, '[') + std::string(13, ']') + "}"})
-    EXPECT_EQ(code_of([&] { static_cast<void>(parse_inverse3(wrong)); }), DeviceError::malformed_message);
+  for (const char* wrong :
+       {"", "null", "[]", "7", "{\"inverse3\":7}", R"({"inverse3":[7]})",
+        R"({"inverse3":[{"device_id":""}]})", R"({"inverse3":[{"device_id":"a\"b"}]})",
+        R"({"inverse3":[{"device_id":"a","state":{"cursor_position":{"x":1,"y":1}}}]})",
+        R"({"inverse3":[{"device_id":"a","state":{"cursor_position":{"x":"1","y":1,"z":1}}}]})",
+        R"({"inverse3":[{"device_id":"a","state":{"cursor_position":{"x":3,"y":0,"z":0}}}]})",
+        R"({"inverse3":[{"device_id":"a","state":{"cursor_position":{"x":1e999,"y":0,"z":0}}}]})",
+        R"({"verse_grip":[{"device_id":"a","state":{"orientation":{"w":1}}}]})"})
+    EXPECT_EQ(code_of([&] { static_cast<void>(parse_inverse3(wrong)); }),
+              DeviceError::malformed_message)
+        << wrong;
+  for (const std::string& wrong :
+       {std::string(k_inverse3_largest + 1, ' '),
+        R"({"inverse3":)" + std::string(13, '[') + std::string(13, ']') + "}"})
+    EXPECT_EQ(code_of([&] { static_cast<void>(parse_inverse3(wrong)); }),
+              DeviceError::malformed_message);
 }
 
 TEST(Inverse3Protocol, ThePageOfLimitsSaysHowLargeAMessageMayBe) {
@@ -85,7 +92,8 @@ TEST(Inverse3Protocol, DamageIsReadOrRefusedAndNothingElse) {
       }
     }
     try {
-      for (const auto& d : parse_inverse3(text).devices) ASSERT_LE(length(d.position_mm.value_or(Vec3{})), 2000.0);
+      for (const auto& d : parse_inverse3(text).devices)
+        ASSERT_LE(length(d.position_mm.value_or(Vec3{})), 2000.0);
     } catch (const Error&) {
       ++refused;
     }
@@ -98,7 +106,8 @@ TEST(Inverse3Protocol, ACommandIsJsonWithTheForceInNewtons) {
     const auto j = nlohmann::json::parse(inverse3_command("049D", {1.25, -0.5, 1e-9}, vector));
     ASSERT_EQ(j["inverse3"].size(), 1u);
     EXPECT_EQ(j["inverse3"][0]["device_id"], "049D");
-    const auto& force = j["inverse3"][0]["commands"]["set_cursor_force"][vector ? "vector" : "values"];
+    const auto& force =
+        j["inverse3"][0]["commands"]["set_cursor_force"][vector ? "vector" : "values"];
     EXPECT_EQ(force["x"], 1.25);
     EXPECT_EQ(force["y"], -0.5);
     EXPECT_EQ(force["z"], 0.0);

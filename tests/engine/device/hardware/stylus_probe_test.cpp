@@ -19,7 +19,8 @@ constexpr HandModel k_nobody{.mass_kg = 0.0, .stiffness_n_per_mm = 0.0, .damping
 /// A stylus that lies free, and whose own weight pulls at it.
 class Free final : public Stylus {
  public:
-  Free(const OmniModel& omni, Vec3 weight_n) : stylus_(omni, k_nobody, 1e-3, [](double) { return HandIntent{}; }), weight_n_(weight_n) {}
+  Free(const OmniModel& omni, Vec3 weight_n)
+      : stylus_(omni, k_nobody, 1e-3, [](double) { return HandIntent{}; }), weight_n_(weight_n) {}
   [[nodiscard]] DeviceReading read(double elapsed_s) override {
     DeviceReading r = stylus_.read(elapsed_s);
     if (++reads_ > silent_after) r.flags = 0;
@@ -57,16 +58,20 @@ TEST(StylusProbe, FindsFrictionWeightQuantumAndRate) {
     Free stylus(omni, {0, 0, -weight});
     const StylusProbe probe = probe_stylus(stylus, {.real_time = false});
     EXPECT_FALSE(probe.friction_problem);
-    // The push goes on growing while it begins to move: m x'' = ramp t gives 0.02 N for 0.12 mm and 45 g.
+    // The push goes on growing while it begins to move: m x'' = ramp t gives 0.02 N for 0.12 mm and
+    // 45 g.
     EXPECT_NEAR(probe.friction_n, omni.coulomb_n, 0.035);
-    EXPECT_GE(probe.friction_n, omni.coulomb_n - 0.002) << "nothing moves before its friction is overcome";
+    EXPECT_GE(probe.friction_n, omni.coulomb_n - 0.002)
+        << "nothing moves before its friction is overcome";
     EXPECT_NEAR(probe.axes[2].bias_n(), -weight, 0.01);
     EXPECT_NEAR(probe.axes[0].bias_n(), 0.0, 0.01);
     EXPECT_NEAR(probe.quantum_mm, omni.quantum_mm, 1e-9);
     EXPECT_NEAR(probe.rate_hz, 1000.0, 1.0);
     EXPECT_LE(stylus.largest_n, 1.0);
     EXPECT_EQ(stylus.last_n, Vec3{}) << "no force is left";
-    if (round == 0) std::printf("simulated Omni: friction %.3f N found, %.3f N set\n", probe.friction_n, omni.coulomb_n);
+    if (round == 0)
+      std::printf("simulated Omni: friction %.3f N found, %.3f N set\n", probe.friction_n,
+                  omni.coulomb_n);
   }
 }
 
@@ -74,7 +79,8 @@ TEST(StylusProbe, SaysWhenItCannotKnow) {
   OmniModel stuck;
   stuck.coulomb_n = 2.0;
   Free in_its_inkwell(stuck, {});
-  EXPECT_EQ(code_of(probe_stylus(in_its_inkwell, {.real_time = false}).friction_problem), DeviceError::stuck);
+  EXPECT_EQ(code_of(probe_stylus(in_its_inkwell, {.real_time = false}).friction_problem),
+            DeviceError::stuck);
   EXPECT_LE(in_its_inkwell.largest_n, 1.0);
   Free falling({}, {0, 0, -0.6});
   const StylusProbe falls = probe_stylus(falling, {.real_time = false});
@@ -82,7 +88,8 @@ TEST(StylusProbe, SaysWhenItCannotKnow) {
   EXPECT_EQ(falls.friction_n, 0.0);
   Free silent({}, {});
   silent.silent_after = 1000;
-  EXPECT_EQ(code_of([&] { static_cast<void>(probe_stylus(silent, {.real_time = false})); }), DeviceError::silent);
+  EXPECT_EQ(code_of([&] { static_cast<void>(probe_stylus(silent, {.real_time = false})); }),
+            DeviceError::silent);
   EXPECT_EQ(silent.last_n, Vec3{});
 }
 

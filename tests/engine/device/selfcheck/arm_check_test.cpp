@@ -1,4 +1,5 @@
-// The check of a free arm against arms whose friction, mass and weight are known because the test made them.
+// The check of a free arm against arms whose friction, mass and weight are known because the test
+// made them.
 #include "engine/device/selfcheck/arm/arm_check.h"
 
 #include <gtest/gtest.h>
@@ -61,7 +62,8 @@ TEST(ArmCheck, CableRippleAndWeightDoNotCountAsFriction) {
   rough.ripple_mm = 3.1;
   rough.weight_n = {0.1, -0.05, 0.3};
   FreeArm smooth(plain_arm(), k_left_at, 5), rippled(rough, k_left_at, 5);
-  EXPECT_NEAR(check_free_arm(smooth, 6).friction_n(), check_free_arm(rippled, 6).friction_n(), 0.012);
+  EXPECT_NEAR(check_free_arm(smooth, 6).friction_n(), check_free_arm(rippled, 6).friction_n(),
+              0.012);
 }
 
 TEST(ArmCheck, AWeakerMotorMakesMassAndFrictionSeemLargerByTheSameShare) {
@@ -76,7 +78,8 @@ TEST(ArmCheck, AWeakerMotorMakesMassAndFrictionSeemLargerByTheSameShare) {
 }
 
 TEST(ArmCheck, SaysThatAHandIsOnIt) {
-  for (const ArmHand& hand : {ArmHand{0.1, 0.5, 0.005, 0.5}, ArmHand{0.1, 1.0, 0.02, 1.0}, ArmHand{0.2, 2.0, 0.1, 0.4}}) {
+  for (const ArmHand& hand :
+       {ArmHand{0.1, 0.5, 0.005, 0.5}, ArmHand{0.1, 1.0, 0.02, 1.0}, ArmHand{0.2, 2.0, 0.1, 0.4}}) {
     FreeArm arm(plain_arm(), {}, 9);
     arm.set_hand(hand);
     EXPECT_NE(check_free_arm(arm, 10).doubt, Message()) << hand.stiffness_n_per_mm;
@@ -103,7 +106,8 @@ TEST(ArmCheck, AStylusThatFallsSilentEndsIt) {
     if (++ticks == 5000) arm.fall_silent();
     return now += 1'000'000;
   };
-  EXPECT_EQ(testing_basics::code_of([&] { static_cast<void>(check_arm(arm, o)); }), DeviceError::silent);
+  EXPECT_EQ(testing_basics::code_of([&] { static_cast<void>(check_arm(arm, o)); }),
+            DeviceError::silent);
   EXPECT_EQ(length(arm.commanded_n()), 0.0);
 }
 
@@ -115,7 +119,8 @@ TEST(ArmCheck, IsStoppedWhenAskedTo) {
   EXPECT_FALSE(check_arm(arm, o).doubt.empty());
 }
 
-/// x'' = (F − friction sign x')/m in closed form: two parabolas a run, the force turning where the test says.
+/// x'' = (F − friction sign x')/m in closed form: two parabolas a run, the force turning where the
+/// test says.
 TEST(ArmSwing, FitsParabolasExactly) {
   const double m = 0.1, c = 0.3, force = 0.8, delay = 0.002;
   std::vector<SwingSample> swing;
@@ -152,7 +157,8 @@ TEST(ArmSwing, FitsParabolasExactly) {
   EXPECT_NEAR(fit.delay_s, delay, 0.0003);
 }
 
-/// The small form of the campaign: fixed seeds, an arm of each family. The figures of docs/selfcheck.md come from `selfcheck_campaign`.
+/// The small form of the campaign: fixed seeds, an arm of each family. The figures of
+/// docs/selfcheck.md come from `selfcheck_campaign`.
 TEST(SelfCheckCampaign, FindsHiddenChangesAndCallsNoOtherCheckChanged) {
   for (const std::string& family : arm_families())
     for (const std::uint64_t seed : {4001U}) {

@@ -11,7 +11,9 @@ namespace {
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : random_(seed * 0x9e3779b97f4a7c15U + 12345) {}
-  double between(double low, double high) { return low + (high - low) * std::uniform_real_distribution<double>()(random_); }
+  double between(double low, double high) {
+    return low + (high - low) * std::uniform_real_distribution<double>()(random_);
+  }
   double normal() { return std::normal_distribution<double>()(random_); }
   bool chance(double p) { return std::uniform_real_distribution<double>()(random_) < p; }
 
@@ -24,19 +26,24 @@ struct Range {
 };
 /// What a family draws from.
 struct Family {
-  Range mass_kg, coulomb_n, stribeck, stribeck_mm_s, viscous, ripple_n, weight_n, spring, backlash_mm, quantum_mm, rate_hz, jitter;
+  Range mass_kg, coulomb_n, stribeck, stribeck_mm_s, viscous, ripple_n, weight_n, spring,
+      backlash_mm, quantum_mm, rate_hz, jitter;
   int most_delay;
 };
 
 Family family_of(const std::string& name) {
   if (name == "light")
-    return {{.03, .08}, {.05, .25}, {0, .2}, {2, 15}, {0, 2e-4}, {0, .02}, {0, .1}, {0, .005}, {0, .05}, {.02, .06}, {900, 1100}, {0, .3}, 2};
+    return {{.03, .08}, {.05, .25}, {0, .2},    {2, 15},     {0, 2e-4}, {0, .02}, {0, .1},
+            {0, .005},  {0, .05},   {.02, .06}, {900, 1100}, {0, .3},   2};
   if (name == "delta")
-    return {{.09, .25}, {.06, .2}, {0, .3}, {2, 15}, {0, 4e-4}, {0, .03}, {.05, .3}, {0, .005}, {0, .05}, {.02, .06}, {800, 1100}, {0, .3}, 2};
+    return {{.09, .25}, {.06, .2}, {0, .3},    {2, 15},     {0, 4e-4}, {0, .03}, {.05, .3},
+            {0, .005},  {0, .05},  {.02, .06}, {800, 1100}, {0, .3},   2};
   if (name == "heavy")
-    return {{.2, .5}, {.02, .12}, {0, .3}, {2, 15}, {0, 1e-3}, {0, .02}, {0, .15}, {0, .01}, {0, .02}, {.005, .02}, {1000, 4000}, {0, .2}, 3};
+    return {{.2, .5}, {.02, .12}, {0, .3},     {2, 15},      {0, 1e-3}, {0, .02}, {0, .15},
+            {0, .01}, {0, .02},   {.005, .02}, {1000, 4000}, {0, .2},   3};
   if (name == "worn")
-    return {{.06, .2}, {.08, .2}, {.2, .6}, {2, 25}, {0, 5e-4}, {.02, .06}, {0, .2}, {0, .01}, {.03, .15}, {.02, .06}, {500, 1100}, {0, .3}, 2};
+    return {{.06, .2}, {.08, .2},  {.2, .6},   {2, 25},     {0, 5e-4}, {.02, .06}, {0, .2},
+            {0, .01},  {.03, .15}, {.02, .06}, {500, 1100}, {0, .3},   2};
   throw std::invalid_argument("no such family: " + name);
 }
 
@@ -82,7 +89,8 @@ ArmDays draw_days(std::uint64_t seed) {
 
 ArmHand draw_hand(std::uint64_t seed) {
   Draw d(seed * 29 + 3);
-  return {d.between(0.03, 0.2), d.between(0.03, 1.5), d.between(0.0005, 0.05), d.between(0.05, 0.6), d.between(7.0, 12.0)};
+  return {d.between(0.03, 0.2), d.between(0.03, 1.5), d.between(0.0005, 0.05), d.between(0.05, 0.6),
+          d.between(7.0, 12.0)};
 }
 
 ArmModel on_a_day(const ArmModel& arm, const ArmDays& days, std::uint64_t seed) {
@@ -103,7 +111,8 @@ ArmFigures check_free_arm(FreeArm& arm, std::uint64_t seed, double uneven) {
   ArmCheckOptions o;
   o.clock = [&] {
     const double late = uneven > 0.0 && d.chance(k_late_share) ? k_late_ns : 0.0;
-    return now += static_cast<std::int64_t>(k_tick_ns * (1.0 + uneven * d.between(-0.5, 0.5)) + late);
+    return now +=
+           static_cast<std::int64_t>(k_tick_ns * (1.0 + uneven * d.between(-0.5, 0.5)) + late);
   };
   return check_arm(arm, o);
 }
@@ -141,8 +150,11 @@ StationTrial try_station(const std::string& family, std::uint64_t seed, int chec
   ArmModel stiffer = arm, weaker = arm;
   for (double& c : stiffer.coulomb_n) c += k_more_friction_n;
   weaker.gain = k_less_gain;
-  const auto of_gain = [](const CheckChange& c) { return c.quantity == "gain" || c.quantity == "mass" || c.quantity == "gain or mass"; };
-  const CheckVerdict friction = judge_check(check(stiffer), learnt), gain = judge_check(check(weaker), learnt);
+  const auto of_gain = [](const CheckChange& c) {
+    return c.quantity == "gain" || c.quantity == "mass" || c.quantity == "gain or mass";
+  };
+  const CheckVerdict friction = judge_check(check(stiffer), learnt),
+                     gain = judge_check(check(weaker), learnt);
   t.friction_doubtful = friction.outcome == CheckOutcome::doubtful;
   t.gain_doubtful = gain.outcome == CheckOutcome::doubtful;
   for (const CheckChange& c : friction.changes) {
@@ -158,7 +170,8 @@ StationTrial try_station(const std::string& family, std::uint64_t seed, int chec
   ++day;
   FreeArm held(on_a_day(arm, days, day), {3, -2, 1}, day * 3 + 1);
   held.set_hand(draw_hand(seed));
-  t.hand_unseen = judge_check(check_free_arm(held, day * 7 + 2), learnt).outcome == CheckOutcome::unchanged;
+  t.hand_unseen =
+      judge_check(check_free_arm(held, day * 7 + 2), learnt).outcome == CheckOutcome::unchanged;
   return t;
 }
 

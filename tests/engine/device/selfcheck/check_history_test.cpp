@@ -24,14 +24,16 @@ class CheckHistoryFile : public ::testing::Test {
   [[nodiscard]] std::string path() const { return folder_.file("selfcheck.jsonl"); }
   static ArmFigures figures(double friction_n, std::size_t i) {
     ArmFigures f;
-    for (ArmAxis& a : f.axes) a = {friction_n + 0.002 * static_cast<double>(i % 3), 0.001, 0.1, 0.01, 0.05};
+    for (ArmAxis& a : f.axes)
+      a = {friction_n + 0.002 * static_cast<double>(i % 3), 0.001, 0.1, 0.01, 0.05};
     f.quantum_mm = 0.02;
     f.rate_hz = 1000;
     return f;
   }
   void learn(std::size_t checks) {
     CheckHistory history(path());
-    for (std::size_t i = 0; i < checks; ++i) history.add_check(k_stylus, figures(0.3, i), 1000 + static_cast<std::int64_t>(i), key_);
+    for (std::size_t i = 0; i < checks; ++i)
+      history.add_check(k_stylus, figures(0.3, i), 1000 + static_cast<std::int64_t>(i), key_);
   }
   testing_basics::Folder folder_;
   SigningKey key_ = load_signing_key(folder_.file("station.key"), "station");
@@ -59,9 +61,10 @@ TEST_F(CheckHistoryFile, AChangeStaysSinceItsFirstDayUntilANewHistory) {
   history.add_check(k_stylus, figures(0.5, 0), 6000, key_);
   EXPECT_EQ(history.last_check(k_stylus)->since_utc_ns, 5000);
   EXPECT_FALSE(history.last_decision(k_stylus)) << "it was about the check before";
-  history.begin_anew(k_stylus, "cables replaced", 7000, key_);
+  history.begin_again(k_stylus, "cables replaced", 7000, key_);
   EXPECT_FALSE(history.last_check(k_stylus));
-  EXPECT_EQ(history.add_check(k_stylus, figures(0.5, 0), 8000, key_).outcome, CheckOutcome::learning);
+  EXPECT_EQ(history.add_check(k_stylus, figures(0.5, 0), 8000, key_).outcome,
+            CheckOutcome::learning);
 }
 
 TEST_F(CheckHistoryFile, TruncatedTrailingLineIsLeftOutAndWrittenOver) {
@@ -100,7 +103,8 @@ TEST_F(CheckHistoryFile, AnotherProgramThatAddedMeanwhileIsNotWrittenOver) {
   learn(2);
   CheckHistory one(path()), two(path());
   one.add_check(k_stylus, figures(0.3, 0), 9000, key_);
-  EXPECT_EQ(testing_basics::code_of([&] { two.add_check(k_stylus, figures(0.3, 0), 9001, key_); }), FileError::inconsistent);
+  EXPECT_EQ(testing_basics::code_of([&] { two.add_check(k_stylus, figures(0.3, 0), 9001, key_); }),
+            FileError::inconsistent);
   EXPECT_EQ(CheckHistory(path()).entries().size(), 3U);
 }
 
@@ -108,14 +112,16 @@ TEST_F(CheckHistoryFile, TheStationSaysItsName) {
   EXPECT_EQ(station_name(key_), "station " + to_hex(key_.public_key).substr(0, 8));
   set_station_name("Seat 3");
   EXPECT_EQ(station_name(key_), "Seat 3");
-  for (const std::string& bad : {std::string("two\nlines"), std::string(61, 'a')}) EXPECT_THROW(set_station_name(bad), Error) << bad;
+  for (const std::string& bad : {std::string("two\nlines"), std::string(61, 'a')})
+    EXPECT_THROW(set_station_name(bad), Error) << bad;
   learn(1);
   EXPECT_EQ(CheckHistory(path()).entries().back().station, "Seat 3");
 }
 
 TEST_F(CheckHistoryFile, ANewHistoryNeedsAReason) {
   CheckHistory history(path());
-  EXPECT_EQ(testing_basics::code_of([&] { history.begin_anew(k_stylus, "", 1, key_); }), FileError::missing);
+  EXPECT_EQ(testing_basics::code_of([&] { history.begin_again(k_stylus, "", 1, key_); }),
+            FileError::missing);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The rule on figures that are drawn, without any arm: its false alarms are what they are said to be.
+// The rule on figures that are drawn, without any arm: its false alarms are what they are said to
+// be.
 #include "engine/device/selfcheck/check_rule.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +16,8 @@ struct Scatter {
   double friction_n = 0.012, mass = 0.012;
 };
 
-ArmFigures drawn(std::mt19937_64& random, const Scatter& s, double friction_n = 0.3, double gain = 1.0, double more_mass_kg = 0.0) {
+ArmFigures drawn(std::mt19937_64& random, const Scatter& s, double friction_n = 0.3,
+                 double gain = 1.0, double more_mass_kg = 0.0) {
   std::normal_distribution<double> n;
   ArmFigures f;
   const double day_friction = s.friction_n * n(random), day_mass = s.mass * n(random);
@@ -50,7 +52,8 @@ TEST(CheckRule, FalseAlarmsStayBelowWhatIsSaidWhateverTheScatter) {
     int alarms = 0;
     constexpr int k_stations = 3000;
     for (int i = 0; i < k_stations; ++i) {
-      const auto history = history_of(random, s, k_checks_to_learn + static_cast<std::size_t>(i) % 23);
+      const auto history =
+          history_of(random, s, k_checks_to_learn + static_cast<std::size_t>(i) % 23);
       alarms += judge_check(drawn(random, s), history).outcome == CheckOutcome::changed ? 1 : 0;
     }
     const double expected = k_stations * k_false_alarms;
@@ -62,7 +65,8 @@ TEST(CheckRule, TellsFrictionFromGainFromMass) {
   std::mt19937_64 random(3);
   const Scatter little{0.004, 0.004};
   const auto history = history_of(random, little, 20);
-  const CheckVerdict friction = judge_check(drawn(random, little, 0.4), history), gain = judge_check(drawn(random, little, 0.3, 0.9), history),
+  const CheckVerdict friction = judge_check(drawn(random, little, 0.4), history),
+                     gain = judge_check(drawn(random, little, 0.3, 0.9), history),
                      mass = judge_check(drawn(random, little, 0.3, 1.0, 0.02), history);
   ASSERT_EQ(friction.changes.size(), 1U);
   EXPECT_EQ(friction.changes[0].quantity, "friction");
@@ -110,7 +114,8 @@ TEST(CheckRule, StepAndRateAreNamed) {
   f.rate_hz = 500.0;
   const CheckVerdict v = judge_check(f, history);
   ASSERT_EQ(v.changes.size(), 2U);
-  for (const CheckChange& c : v.changes) EXPECT_NEAR(c.change, c.quantity == "step" ? 1.0 : -0.5, 0.01) << c.quantity;
+  for (const CheckChange& c : v.changes)
+    EXPECT_NEAR(c.change, c.quantity == "step" ? 1.0 : -0.5, 0.01) << c.quantity;
 }
 
 TEST(CheckRule, CreepingChangeIsNotLearnt) {

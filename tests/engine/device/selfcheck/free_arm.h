@@ -1,6 +1,7 @@
-// A haptic arm that nobody holds, for tests of the self-check: three joints askew to the axes of its places, each with mass, Coulomb friction with a
-// Stribeck rise, viscous friction and cable ripple; weight that is not quite balanced; backlash; encoders; exchanges at the device's own rate, late
-// and unevenly. It shares no code with the check.
+// A haptic arm that nobody holds, for tests of the self-check: three joints askew to the axes of
+// its places, each with mass, Coulomb friction with a Stribeck rise, viscous friction and cable
+// ripple; weight that is not quite balanced; backlash; encoders; exchanges at the device's own
+// rate, late and unevenly. It shares no code with the check.
 #pragma once
 
 #include <array>
@@ -33,7 +34,8 @@ struct ArmModel {
 
 /// A hand on the stylus.
 struct ArmHand {
-  double mass_kg = 0.0, stiffness_n_per_mm = 0.0, damping_n_s_per_mm = 0.0, tremor_mm = 0.0, tremor_hz = 9.0;
+  double mass_kg = 0.0, stiffness_n_per_mm = 0.0, damping_n_s_per_mm = 0.0, tremor_mm = 0.0,
+         tremor_hz = 9.0;
 };
 
 class FreeArm final : public Stylus {

@@ -1,5 +1,5 @@
-// Recordings for the tests of explain, from formulae of their own: six sessions of strokes in air and presses with holds,
-// k = 0.8 N/mm, c = 0.6 N s/mm, noise that remembers (AR(1), rho = 0.5).
+// Recordings for the tests of explain, from formulae of their own: six sessions of strokes in air
+// and presses with holds, k = 0.8 N/mm, c = 0.6 N s/mm, noise that remembers (AR(1), rho = 0.5).
 #pragma once
 
 #include <cmath>
@@ -43,11 +43,17 @@ inline Recording recording(const Options& o, const std::function<double(const Ro
       legs = programme;
     } else {
       const double speeds[] = {0.1, 0.25, 0.5, 1.0};
-      for (int i = 0; i < 2; ++i) legs.insert(legs.end(), {{-0.3, speeds[(session + i) % 4], 0}, {-0.8, speeds[(session + i + 1) % 4], 0}});
+      for (int i = 0; i < 2; ++i)
+        legs.insert(legs.end(), {{-0.3, speeds[(session + i) % 4], 0},
+                                 {-0.8, speeds[(session + i + 1) % 4], 0}});
       for (int i = 0; i < 4; ++i) {
-        const double depth = 0.3 + 0.1 * random.uniform(0, 3), v = speeds[(i + session) % 4], u = speeds[(i + session + 2) % 4];
-        legs.insert(legs.end(),
-                    {{-0.1, 0.8, 0}, {depth, v, i == 0 ? 8.0 : 1.5}, {depth + 0.2, u, 1.0}, {depth, v, 0.5}, {-0.4, std::max(0.25, u), 0.4}});
+        const double depth = 0.3 + 0.1 * random.uniform(0, 3), v = speeds[(i + session) % 4],
+                     u = speeds[(i + session + 2) % 4];
+        legs.insert(legs.end(), {{-0.1, 0.8, 0},
+                                 {depth, v, i == 0 ? 8.0 : 1.5},
+                                 {depth + 0.2, u, 1.0},
+                                 {depth, v, 0.5},
+                                 {-0.4, std::max(0.25, u), 0.4}});
       }
     }
     programme = legs;
@@ -81,7 +87,9 @@ inline Recording recording(const Options& o, const std::function<double(const Ro
     }
     r.sessions.push_back({std::to_string(session + 1), begin, static_cast<Eigen::Index>(t.size())});
   }
-  const auto series = [](const std::vector<double>& v) { return Series(Eigen::Map<const Series>(v.data(), static_cast<Eigen::Index>(v.size()))); };
+  const auto series = [](const std::vector<double>& v) {
+    return Series(Eigen::Map<const Series>(v.data(), static_cast<Eigen::Index>(v.size())));
+  };
   r.t_s = series(t);
   r.x_mm = series(x);
   r.f_n = series(f);

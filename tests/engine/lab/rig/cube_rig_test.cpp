@@ -14,7 +14,9 @@ namespace {
 using namespace testing_engine;
 
 /// Quick to settle: τ = 0.4 s, and c = g √k with a branch that settles as fast.
-CubeModel quick(const std::string& name, double damping_ratio) { return {name, hard_model(1.0, damping_ratio, 0.4)}; }
+CubeModel quick(const std::string& name, double damping_ratio) {
+  return {name, hard_model(1.0, damping_ratio, 0.4)};
+}
 
 CubeOptions small() {
   CubeOptions o;
@@ -24,17 +26,22 @@ CubeOptions small() {
 }
 
 TEST(CubeRig, ForceIsKVTauPlusCVAndFrictionIsAnIntercept) {
-  const CubeResult r = run_cube_rig({quick("damped", 0.3), quick("undamped", 0.0)}, shipped_bur("round-1.0"), small());
+  const CubeResult r = run_cube_rig({quick("damped", 0.3), quick("undamped", 0.0)},
+                                    shipped_bur("round-1.0"), small());
   for (const CubeSet& set : r.sets) {
     for (const CubeRow& row : set.rows) {
       ASSERT_EQ(row.left_out, 0);
-      EXPECT_NEAR(row.expected_n, 0.25 * (row.k_n_per_mm * 0.4 + set.damping_ratio * std::sqrt(row.k_n_per_mm)), 1e-12);
-      EXPECT_NEAR(row.without.mean, row.expected_n, 0.03 + 0.02 * row.expected_n) << set.name << " k " << row.k_n_per_mm;
+      EXPECT_NEAR(row.expected_n,
+                  0.25 * (row.k_n_per_mm * 0.4 + set.damping_ratio * std::sqrt(row.k_n_per_mm)),
+                  1e-12);
+      EXPECT_NEAR(row.without.mean, row.expected_n, 0.03 + 0.02 * row.expected_n)
+          << set.name << " k " << row.k_n_per_mm;
       EXPECT_NEAR(row.with.mean - row.without.mean, 0.26 + 0.25e-4, 1e-9);
     }
     EXPECT_NEAR(set.with.line.value[1] - set.without.line.value[1], 0.26 + 0.25e-4, 1e-9);
     EXPECT_NEAR(set.with.line.value[0], set.without.line.value[0], 1e-9);
-    EXPECT_NEAR(set.with.with_root.value[2], 0.25 * set.damping_ratio, 0.04) << "c V is the root term";
+    EXPECT_NEAR(set.with.with_root.value[2], 0.25 * set.damping_ratio, 0.04)
+        << "c V is the root term";
   }
 }
 
@@ -92,13 +99,16 @@ TEST(CubeRig, ReadingSpeaksOfABendOnlyWhereThereIsOne) {
   CubeOptions o = small();
   o.k_n_per_mm = {0.0, 0.2, 0.6, 1.2};
   const Bur bur = shipped_bur("round-1.0");
-  const CubeResult bent = run_cube_rig({quick("damped", 2.0)}, bur, o), straight = run_cube_rig({quick("undamped", 0.0)}, bur, o);
+  const CubeResult bent = run_cube_rig({quick("damped", 2.0)}, bur, o),
+                   straight = run_cube_rig({quick("undamped", 0.0)}, bur, o);
   EXPECT_TRUE(is_bent(bent.sets[0]));
   EXPECT_FALSE(is_bent(straight.sets[0]));
-  EXPECT_EQ(cube_reading(bent).size(), cube_reading(straight).size() + 1) << "a bend speaks against the force of c V";
+  EXPECT_EQ(cube_reading(bent).size(), cube_reading(straight).size() + 1)
+      << "a bend speaks against the force of c V";
   EXPECT_FALSE(to_text(bent).empty());
   o.k_n_per_mm = {0.4};
-  EXPECT_EQ(cube_reading(run_cube_rig({quick("one", 0.0)}, bur, o)).size(), 1u) << "nothing can be said";
+  EXPECT_EQ(cube_reading(run_cube_rig({quick("one", 0.0)}, bur, o)).size(), 1u)
+      << "nothing can be said";
 }
 
 }  // namespace

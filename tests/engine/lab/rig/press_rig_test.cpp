@@ -20,7 +20,8 @@ class PressRig : public testing::Test {
 TEST_F(PressRig, ExplicitVoigtRingsWithThePapersDampingAndOursDoesNot) {
   for (const int delay : {0, 1}) {
     const PressCell cell{0.8, DampingRule::paper, delay, 0.3, 1.0};
-    const PressOutcome ours = press(bench_, cell, options_, Rendering::ours), other = press(bench_, cell, options_, Rendering::explicit_voigt);
+    const PressOutcome ours = press(bench_, cell, options_, Rendering::ours),
+                       other = press(bench_, cell, options_, Rendering::explicit_voigt);
     EXPECT_LE(ours.sd_n, 0.02) << delay;
     EXPECT_LE(ours.generated_mj, 0.001);
     EXPECT_LE(ours.late_mj, 0.001);
@@ -37,19 +38,23 @@ TEST_F(PressRig, AtRestTheForceIsTheLoadWithinTheFriction) {
   options_.omni.quantum_mm = 0;
   for (const double k : {0.4, 1.2})
     for (const double load : {0.5, 2.0}) {
-      const PressOutcome o = press(bench_, {k, DampingRule::none, 0, 0.3, load}, options_, Rendering::ours);
+      const PressOutcome o =
+          press(bench_, {k, DampingRule::none, 0, 0.3, load}, options_, Rendering::ours);
       // the hand's spring shares the friction's slack with the tissue's
       EXPECT_NEAR(o.mean_n, load, 0.26 * k / (k + 0.3) + 0.02) << k << " " << load;
       EXPECT_TRUE(o.steady && o.passive);
     }
   options_.omni.coulomb_n = 0;
-  EXPECT_NEAR(press(bench_, {0.8, DampingRule::consistent, 1, 0.3, 1.0}, options_, Rendering::ours).mean_n, 1.0, 0.01);
+  EXPECT_NEAR(
+      press(bench_, {0.8, DampingRule::consistent, 1, 0.3, 1.0}, options_, Rendering::ours).mean_n,
+      1.0, 0.01);
 }
 
 TEST_F(PressRig, UndampedBothRenderingsAreTheSameSpring) {
   options_.omni.quantum_mm = 0;  // ours estimates the place between its steps
   const PressCell cell{0.8, DampingRule::none, 1, 0.3, 1.0};
-  EXPECT_NEAR(press(bench_, cell, options_, Rendering::ours).mean_n, press(bench_, cell, options_, Rendering::explicit_voigt).mean_n, 1e-9);
+  EXPECT_NEAR(press(bench_, cell, options_, Rendering::ours).mean_n,
+              press(bench_, cell, options_, Rendering::explicit_voigt).mean_n, 1e-9);
 }
 
 TEST_F(PressRig, ContactIsMadeWithoutBouncingAndTheExplicitLawBounces) {
@@ -82,7 +87,8 @@ TEST_F(PressRig, NoPressHoldsByLuckOfWhereTheEncoderStandsWhenTheLoadIsVaried) {
   for (const double k : {0.2, 0.5, 1.2})
     for (const double hand : {0.1, 0.4, 1.0})
       for (double load = 0.31; load < 2.5; load += 0.23) {
-        const PressOutcome o = press(bench_, {k, DampingRule::paper, of % 3, hand, load}, options_, Rendering::ours);
+        const PressOutcome o =
+            press(bench_, {k, DampingRule::paper, of % 3, hand, load}, options_, Rendering::ours);
         ++of;
         misses += !o.steady || !o.passive;
       }
@@ -105,7 +111,8 @@ TEST_F(PressRig, TableHasEveryCombinationInOrderAndIsTheSameTwice) {
   EXPECT_TRUE(r.within_limits());
   EXPECT_EQ(to_json(r).dump(), to_json(run_press_rig(options_, bench_.bur)).dump());
   options_.limit_sd_n = -1;
-  EXPECT_FALSE(run_press_rig(options_, bench_.bur).within_limits()) << "a limit that nothing can keep";
+  EXPECT_FALSE(run_press_rig(options_, bench_.bur).within_limits())
+      << "a limit that nothing can keep";
 }
 
 }  // namespace

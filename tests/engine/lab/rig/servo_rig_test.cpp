@@ -20,7 +20,8 @@ TEST(ServoRig, DrillsInRealTimeCountsEveryTickAndItsSessionVerifies) {
     const Folder folder;
     ::setenv("CAVUM_HOME", folder.file("station").c_str(), 1);
     const std::string path = folder.file("rig.cavum");
-    const SessionSetup setup = servo_rig_setup(bur_text("round-1.0"), read_text_file(data_path("materials/consistent.toml")), tick_s);
+    const SessionSetup setup = servo_rig_setup(
+        bur_text("round-1.0"), read_text_file(data_path("materials/consistent.toml")), tick_s);
     ServoRigOptions options;
     options.seconds = 2.5;
     const ServoRigResult r = run_servo_rig(setup, path, options);
@@ -30,8 +31,11 @@ TEST(ServoRig, DrillsInRealTimeCountsEveryTickAndItsSessionVerifies) {
     EXPECT_EQ(r.servo.ticks, periods);
     EXPECT_EQ(r.writer.ticks, r.servo.ticks);
     EXPECT_EQ(r.writer.error, Message());
-    EXPECT_GT(r.seconds, 0.99 * options.seconds) << "no faster than the clock; a busy machine may take its time, and the histogram tells";
-    EXPECT_EQ(std::accumulate(r.servo.lateness.counts.begin(), r.servo.lateness.counts.end(), std::int64_t{0}), r.servo.ticks);
+    EXPECT_GT(r.seconds, 0.99 * options.seconds)
+        << "no faster than the clock; a busy machine may take its time, and the histogram tells";
+    EXPECT_EQ(std::accumulate(r.servo.lateness.counts.begin(), r.servo.lateness.counts.end(),
+                              std::int64_t{0}),
+              r.servo.ticks);
     EXPECT_GT(r.mean_force_n, 0.1);
     EXPECT_LT(r.peak_force_n, 3.3 + 1e-9);
     EXPECT_GT(r.removed_leaves, 100);
@@ -52,17 +56,20 @@ TEST(ServoRig, DrillsInRealTimeCountsEveryTickAndItsSessionVerifies) {
   }
 }
 
-// The neck leans on the rim of the hole here and the head hangs on crests that lie between the samples of the neck: the proxy goes forth and back
-// over them. That once took 4800 places looked up in every tick for seconds, and the force dropped out on the way. What is looked up is nearly all
-// that contact costs, and no clock disturbs it.
+// The neck leans on the rim of the hole here and the head hangs on crests that lie between the
+// samples of the neck: the proxy goes forth and back over them. That once took 4800 places looked
+// up in every tick for seconds, and the force dropped out on the way. What is looked up is nearly
+// all that contact costs, and no clock disturbs it.
 TEST(ServoRig, ContactOfAHandHasABoundInEveryTickAndItsForceNeverDropsOut) {
   for (const double tick_s : {0.001, 0.00025}) {
-    const SessionSetup setup = servo_rig_setup(bur_text("round-1.0"), read_text_file(data_path("materials/consistent.toml")), tick_s);
+    const SessionSetup setup = servo_rig_setup(
+        bur_text("round-1.0"), read_text_file(data_path("materials/consistent.toml")), tick_s);
     Simulation simulation = make_simulation(setup, "test");
     ServoState& state = simulation.state;
     SimulatedStylus stylus({}, {}, tick_s, drilling_hand);
     TickInput input = make_tick_input({setup.first_tip_mm(), {}}, 0, k_stylus_fresh, 0, {});
-    const auto ticks = static_cast<std::size_t>(25.0 / tick_s), window = static_cast<std::size_t>(0.1 / tick_s);
+    const auto ticks = static_cast<std::size_t>(25.0 / tick_s),
+               window = static_cast<std::size_t>(0.1 / tick_s);
     std::vector<int> looked_up;
     int most = 0;
     long in_window = 0, most_in_window = 0;
@@ -78,7 +85,8 @@ TEST(ServoRig, ContactOfAHandHasABoundInEveryTickAndItsForceNeverDropsOut) {
       in_window += looked_up.back() - (i >= window ? looked_up[i - window] : 0);
       most_in_window = std::max(most_in_window, in_window);
       const double force_n = length(out.rendered_force_n);
-      if (out.contact && was_touching) steepest_n = std::max(steepest_n, std::fabs(force_n - last_n));
+      if (out.contact && was_touching)
+        steepest_n = std::max(steepest_n, std::fabs(force_n - last_n));
       last_n = force_n;
       was_touching = out.contact;
     }

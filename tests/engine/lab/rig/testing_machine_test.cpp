@@ -20,10 +20,12 @@ struct Steady {
 Steady steady(double k, double c, double tau_s, double speed_mm_s, MachineSettings settings) {
   settings.speed_mm_s = speed_mm_s;
   const Tooth block = make_block({4, 4, 4}, {{"dentin", 4.0}}, 0.05);
-  const ServoModel servo = machine_servo(block, shipped_bur("round-1.0"), hard_model(k, c, tau_s), settings.omni);
+  const ServoModel servo =
+      machine_servo(block, shipped_bur("round-1.0"), hard_model(k, c, tau_s), settings.omni);
   TestingMachine machine(servo, block, {0.1, 0.2, 0.3}, settings, Random(1));
   const double branch_s = c / servo.force.rendering.kvc_n_per_mm;
-  const int ticks = static_cast<int>((0.3 / speed_mm_s + 6 * std::max(tau_s, branch_s)) / k_tick_s) + 500;
+  const int ticks =
+      static_cast<int>((0.3 / speed_mm_s + 6 * std::max(tau_s, branch_s)) / k_tick_s) + 500;
   Steady out;
   for (int i = 0; i < ticks; ++i) {
     const MachineReading& r = machine.tick();
@@ -47,20 +49,23 @@ TEST(TestingMachine, SteadyCutHasXOfVTauAndTheVoigtForcePlusFriction) {
       MachineSettings s = exact_encoder();
       const Steady got = steady(k, c, tau, speed, s);
       EXPECT_NEAR(got.penetration_mm, speed * tau, 0.02 * speed * tau) << speed << " mm/s, c " << c;
-      const double expected = k * speed * tau + c * speed + s.omni.coulomb_n + s.omni.viscous_n_s_per_mm * speed;
+      const double expected =
+          k * speed * tau + c * speed + s.omni.coulomb_n + s.omni.viscous_n_s_per_mm * speed;
       EXPECT_NEAR(got.force_n, expected, 0.02 * expected) << speed << " mm/s, c " << c;
     }
 }
 
 TEST(TestingMachine, CoarseEncoderChangesTheMeanByLessThanAStepOfForce) {
   MachineSettings coarse;
-  const Steady exact = steady(0.8, 0.3, 0.5, 0.25, exact_encoder()), seen = steady(0.8, 0.3, 0.5, 0.25, coarse);
+  const Steady exact = steady(0.8, 0.3, 0.5, 0.25, exact_encoder()),
+               seen = steady(0.8, 0.3, 0.5, 0.25, coarse);
   EXPECT_NEAR(seen.force_n, exact.force_n, 0.8 * coarse.omni.quantum_mm);
 }
 
 TEST(TestingMachine, WithTheHandpieceStillItIndentsAndTheForceIsThatOfTheSpring) {
   const Tooth block = make_block({4, 4, 2}, {{"dentin", 2.0}}, 0.05);
-  const ServoModel servo = machine_servo(block, shipped_bur("round-1.0"), hard_model(0.8, 0.0), exact_encoder().omni);
+  const ServoModel servo =
+      machine_servo(block, shipped_bur("round-1.0"), hard_model(0.8, 0.0), exact_encoder().omni);
   TestingMachine machine(servo, block, {0, 0, 0.1}, exact_encoder(), Random(1), false);
   double removed = 0;
   for (int i = 0; i < 4000; ++i) removed += machine.tick().servo.removed_count;
@@ -71,14 +76,19 @@ TEST(TestingMachine, WithTheHandpieceStillItIndentsAndTheForceIsThatOfTheSpring)
 
 TEST(TestingMachine, StiffnessIsReplacedAndTheDampingRatioKept) {
   for (const double k : {0.2, 1.2}) {
-    const Viscoelastic paper = with_stiffness(shipped_model("paper"), "dentin", k).materials.find("dentin")->second.voigt;
+    const Viscoelastic paper =
+        with_stiffness(shipped_model("paper"), "dentin", k).materials.find("dentin")->second.voigt;
     EXPECT_EQ(paper.stiffness_n_per_mm, k);
     EXPECT_NEAR(paper.damping_n_s_per_mm, paper_damping_n_s_per_mm(k), 1e-12);
-    const Viscoelastic own = with_stiffness(shipped_model("consistent"), "dentin", k).materials.find("dentin")->second.voigt;
+    const Viscoelastic own = with_stiffness(shipped_model("consistent"), "dentin", k)
+                                 .materials.find("dentin")
+                                 ->second.voigt;
     EXPECT_NEAR(own.damping_n_s_per_mm, consistent_damping_n_s_per_mm(k, 0.045), 1e-9);
   }
-  EXPECT_EQ(code_of([] { (void)with_stiffness(shipped_model("paper"), "bone", 1.0); }), RigError::no_material);
-  EXPECT_EQ(code_of([] { (void)with_stiffness(shipped_model("paper"), "pulp", 1.0); }), RigError::no_stiffness);
+  EXPECT_EQ(code_of([] { (void)with_stiffness(shipped_model("paper"), "bone", 1.0); }),
+            RigError::no_material);
+  EXPECT_EQ(code_of([] { (void)with_stiffness(shipped_model("paper"), "pulp", 1.0); }),
+            RigError::no_stiffness);
 }
 
 }  // namespace

@@ -13,7 +13,10 @@ namespace {
 
 using namespace testing_engine;
 
-Tooth layered() { return make_block({5, 5, 3.5}, {{"enamel", 0.5}, {"dentin", 0.6}, {"pulp", 1.4}, {"dentin", 1.0}}, 0.05); }
+Tooth layered() {
+  return make_block({5, 5, 3.5}, {{"enamel", 0.5}, {"dentin", 0.6}, {"pulp", 1.4}, {"dentin", 1.0}},
+                    0.05);
+}
 
 ToothRigOptions small_rig() {
   ToothRigOptions o;
@@ -23,7 +26,8 @@ ToothRigOptions small_rig() {
 
 TEST(ToothRig, ForceFallsToTheFrictionWhenTheTipReachesThePulp) {
   const double k = 0.8, c = 0.2, tau = 0.4, v = 0.25;
-  const ToothRigResult r = run_tooth_rig(layered(), hard_model(k, c, tau), shipped_bur("round-1.0"), small_rig());
+  const ToothRigResult r =
+      run_tooth_rig(layered(), hard_model(k, c, tau), shipped_bur("round-1.0"), small_rig());
   ASSERT_EQ(r.counted, 3);
   // the tip's proxy is X behind the crosshead
   EXPECT_NEAR(r.pulp_s.mean, (1.1 + v * tau) / v, 0.3);
@@ -47,7 +51,8 @@ TEST(ToothRig, SameSeedSameFiguresAndPlacesLieWithinTheSpread) {
   const ToothRigResult a = run(3);
   EXPECT_EQ(to_json(a).dump(), to_json(run(3)).dump());
   EXPECT_NE(to_json(a).dump(), to_json(run(4)).dump());
-  for (const auto& r : a.runs) EXPECT_LE((r.x_mm - 0.5) * (r.x_mm - 0.5) + (r.y_mm + 0.5) * (r.y_mm + 0.5), 0.2 * 0.2 + 1e-12);
+  for (const auto& r : a.runs)
+    EXPECT_LE((r.x_mm - 0.5) * (r.x_mm - 0.5) + (r.y_mm + 0.5) * (r.y_mm + 0.5), 0.2 * 0.2 + 1e-12);
 }
 
 TEST(ToothRig, StifferEnamelShowsAsAStepBetweenTwoHardTissues) {
@@ -59,10 +64,16 @@ TEST(ToothRig, StifferEnamelShowsAsAStepBetweenTwoHardTissues) {
 
 TEST(ToothRig, ToothWithoutPulpIsRefused) {
   const Tooth solid = make_block({3, 3, 2}, {{"enamel", 1.0}, {"dentin", 1.0}}, 0.1);
-  EXPECT_EQ(code_of([&] { (void)run_tooth_rig(solid, hard_model(0.8, 0.0), shipped_bur("round-1.0"), small_rig()); }), RigError::no_pulp);
+  EXPECT_EQ(code_of([&] {
+              (void)run_tooth_rig(solid, hard_model(0.8, 0.0), shipped_bur("round-1.0"),
+                                  small_rig());
+            }),
+            RigError::no_pulp);
   ToothRigOptions beside = small_rig();
   beside.at_mm = {40.0, 0.0};
-  EXPECT_THROW((void)run_tooth_rig(layered(), hard_model(0.8, 0.0), shipped_bur("round-1.0"), beside), Error);
+  EXPECT_THROW(
+      (void)run_tooth_rig(layered(), hard_model(0.8, 0.0), shipped_bur("round-1.0"), beside),
+      Error);
 }
 
 }  // namespace

@@ -19,7 +19,10 @@ namespace {
 
 using testing_basics::drawn_seed;
 
-Mat3 any_turn(Random& random) { return rotation(normalized(Quat{random.normal(), random.normal(), random.normal(), random.normal()})); }
+Mat3 any_turn(Random& random) {
+  return rotation(
+      normalized(Quat{random.normal(), random.normal(), random.normal(), random.normal()}));
+}
 
 const Tooth& molar() {
   static const Tooth k_tooth = make_molar({.leaf_mm = 0.1});
@@ -46,7 +49,8 @@ Tooth molar_with_a_slot() {
   return tooth;
 }
 
-/// What tells two poses apart: the largest way between them of the corners of a box as large as the tooth.
+/// What tells two poses apart: the largest way between them of the corners of a box as large as the
+/// tooth.
 double apart_mm(const Rigid& a, const Rigid& b) {
   double most = 0;
   for (int i = 0; i < 8; ++i) {
@@ -58,7 +62,8 @@ double apart_mm(const Rigid& a, const Rigid& b) {
 
 TEST(Registration, ASmallMotionIsWorkedOutFromPlanesAlone) {
   Random random(drawn_seed("Registration.ASmallMotion"));
-  const Rigid true_motion{rotation(normalized(Quat{1, 0.001, -0.002, 0.0015})), {0.01, -0.02, 0.03}};
+  const Rigid true_motion{rotation(normalized(Quat{1, 0.001, -0.002, 0.0015})),
+                          {0.01, -0.02, 0.03}};
   PlaneSteps steps({1, 2, 3});
   for (int i = 0; i < 200; ++i) {
     const Vec3 p{random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-5, 5)},
@@ -77,12 +82,16 @@ TEST(Registration, FindsAnyPoseOfANoisyCrownWithACavity) {
   TriangleMesh mesh = outer_surface(drilled, outside().outside());
   TriangleMesh crown{mesh.vertices_mm, {}};
   for (const auto& t : mesh.triangles)
-    if (std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return mesh.vertices_mm[v].z > -3.5; })) crown.triangles.push_back(t);
-  for (Vec3& v : crown.vertices_mm) v += Vec3{random.normal(), random.normal(), random.normal()} * 0.01;
+    if (std::all_of(t.begin(), t.end(),
+                    [&](std::uint32_t v) { return mesh.vertices_mm[v].z > -3.5; }))
+      crown.triangles.push_back(t);
+  for (Vec3& v : crown.vertices_mm)
+    v += Vec3{random.normal(), random.normal(), random.normal()} * 0.01;
 
   for (int pose = 0; pose < 4; ++pose) {
     const Mat3 turn = any_turn(random);
-    const Rigid true_pose{turn, Vec3{random.uniform(-50, 50), random.uniform(-50, 50), random.uniform(-50, 50)}};
+    const Rigid true_pose{
+        turn, Vec3{random.uniform(-50, 50), random.uniform(-50, 50), random.uniform(-50, 50)}};
     TriangleMesh scan = crown;  // true_pose carries the scan into the tooth's frame
     for (Vec3& v : scan.vertices_mm) v = turn.transposed(v - true_pose.shift_mm);
     const auto points = surface_points(scan, 0.15, "scan");
@@ -90,7 +99,8 @@ TEST(Registration, FindsAnyPoseOfANoisyCrownWithACavity) {
     ASSERT_TRUE(found.has_value());
     double most = 0;
     for (std::size_t i = 0; i < scan.vertices_mm.size(); i += 997)
-      most = std::max(most, length(found->best.to_tooth * scan.vertices_mm[i] - true_pose * scan.vertices_mm[i]));
+      most = std::max(most, length(found->best.to_tooth * scan.vertices_mm[i] -
+                                   true_pose * scan.vertices_mm[i]));
     EXPECT_LT(most, 0.005);
     if (found->second) {
       EXPECT_LT(found->second->share, 0.8 * found->best.share);
@@ -116,13 +126,17 @@ TEST(Registration, WhatIsCutIsWhatWasCarvedAndTheRootThatIsNotSeenStays) {
   const TriangleMesh whole = outer_surface(drilled, outside().outside());
   TriangleMesh crown{whole.vertices_mm, {}};
   for (const auto& t : whole.triangles)
-    if (std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return whole.vertices_mm[v].z > -4.0; })) crown.triangles.push_back(t);
+    if (std::all_of(t.begin(), t.end(),
+                    [&](std::uint32_t v) { return whole.vertices_mm[v].z > -4.0; }))
+      crown.triangles.push_back(t);
   for (const TriangleMesh* scan : {&whole, static_cast<const TriangleMesh*>(&crown)}) {
     const auto rims = rims_of(*scan);
     const ScanCut cut = cut_by_scan(*scan, caps_over(*scan, rims), outside(), 0.02, "scan.stl");
     EXPECT_EQ(cut.cavities, 1);
-    // leaves whose centre lies within a hundredth of a millimetre of the surface may go either way, and those in a rim thinner than 0.02 mm stay
-    EXPECT_NEAR(static_cast<double>(cut.removed.size()), static_cast<double>(carved.size()), 0.01 * static_cast<double>(carved.size()));
+    // leaves whose centre lies within a hundredth of a millimetre of the surface may go either way,
+    // and those in a rim thinner than 0.02 mm stay
+    EXPECT_NEAR(static_cast<double>(cut.removed.size()), static_cast<double>(carved.size()),
+                0.01 * static_cast<double>(carved.size()));
     std::size_t wrong = 0;
     for (const auto& r : cut.removed) wrong += drilled.octree.tissue(r.leaf()) != k_air ? 1 : 0;
     EXPECT_LT(wrong, carved.size() / 200);
@@ -132,8 +146,11 @@ TEST(Registration, WhatIsCutIsWhatWasCarvedAndTheRootThatIsNotSeenStays) {
     for (const auto& r : cut.removed)
       for (const IVec3 step : {IVec3{1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, 0, -1}}) {
         const IVec3 leaf = r.leaf() + step;
-        if (!drilled.octree.is_solid(drilled.octree.tissue(leaf)) || !cut.after.is_solid(cut.after.tissue(leaf))) continue;
-        off += std::fabs(decode_distance(drilled.octree.distance_code(leaf)) - decode_distance(cut.after.distance_code(leaf)));
+        if (!drilled.octree.is_solid(drilled.octree.tissue(leaf)) ||
+            !cut.after.is_solid(cut.after.tissue(leaf)))
+          continue;
+        off += std::fabs(decode_distance(drilled.octree.distance_code(leaf)) -
+                         decode_distance(cut.after.distance_code(leaf)));
         ++count;
       }
     ASSERT_GT(count, 500);
@@ -144,14 +161,16 @@ TEST(Registration, WhatIsCutIsWhatWasCarvedAndTheRootThatIsNotSeenStays) {
   }
 }
 
-/// A ball whose deepest place lies `deep_mm` inside the crown, on the way from (0, 0, z) along `to`: by the vertices of the surface alone.
+/// A ball whose deepest place lies `deep_mm` inside the crown, on the way from (0, 0, z) along
+/// `to`: by the vertices of the surface alone.
 Vec3 ball_into(const TriangleMesh& surface, Vec3 from, Vec3 to, double radius_mm, double deep_mm) {
   const auto nearest = [&](Vec3 c) {
     double least = 1e9;
     for (const Vec3& v : surface.vertices_mm) least = std::min(least, length(v - c));
     return least;
   };
-  // from far outside inwards: the first place where the surface is as near as the ball is to reach into it
+  // from far outside inwards: the first place where the surface is as near as the ball is to reach
+  // into it
   double far = 12;
   while (nearest(from + to * far) > radius_mm - deep_mm) far -= 0.005;
   return from + to * far;
@@ -168,7 +187,8 @@ ScanCut cut_of_slot_and_ball(Vec3 centre, double radius_mm, std::vector<RemovedL
   return cut_by_scan(scan, caps_over(scan, rims_of(scan)), outside(), 0.02, "scan.stl");
 }
 
-// What is thin and lies apart is named and stays; what is thick there, or thin but part of the cavity, is removed.
+// What is thin and lies apart is named and stays; what is thick there, or thin but part of the
+// cavity, is removed.
 TEST(Registration, AThinPieceApartIsNamedAndNotCountedAThickOneIs) {
   const TriangleMesh surface = outer_surface(molar(), outside().outside());
   const Vec3 side = normalized(Vec3{0.9, 0.43, 0.0});
@@ -185,11 +205,13 @@ TEST(Registration, AThinPieceApartIsNamedAndNotCountedAThickOneIs) {
       ASSERT_EQ(cut.apart.size(), 1u);
       EXPECT_NEAR(cut.apart[0].deep_mm, deep_mm, 0.03);
       EXPECT_LT(length(cut.apart[0].at_mm - centre), 1.1);
-      EXPECT_NEAR(cut.apart[0].mm3, static_cast<double>(ball.size()) * 0.001, 0.3 * static_cast<double>(ball.size()) * 0.001);
+      EXPECT_NEAR(cut.apart[0].mm3, static_cast<double>(ball.size()) * 0.001,
+                  0.3 * static_cast<double>(ball.size()) * 0.001);
     } else {
       EXPECT_EQ(cut.cavities, 2);
       EXPECT_TRUE(cut.apart.empty());
-      EXPECT_NEAR(static_cast<double>(gone), static_cast<double>(ball.size()), 0.05 * static_cast<double>(ball.size()));
+      EXPECT_NEAR(static_cast<double>(gone), static_cast<double>(ball.size()),
+                  0.05 * static_cast<double>(ball.size()));
     }
   }
   // as thin as the first, but beside the slot and joined to it: nothing is left out
@@ -218,9 +240,11 @@ TEST(Registration, AShallowGrindingOfSomeSquareMillimetresIsNamed) {
   const double radius_mm = 5.0, deep_mm = 0.09;
   const Vec3 centre{2.0, 0, radius_mm - deep_mm};
   ASSERT_TRUE(ground.octree.carve(
-      {-3, -1.5, -1.5}, {-1, 1.5, 0.5}, [](Vec3 p) { return std::max(std::hypot(p.x + 2, p.y) - 0.7, -1.0 - p.z); }, removed));
+      {-3, -1.5, -1.5}, {-1, 1.5, 0.5},
+      [](Vec3 p) { return std::max(std::hypot(p.x + 2, p.y) - 0.7, -1.0 - p.z); }, removed));
   ASSERT_TRUE(ground.octree.carve(
-      {0.5, -1.5, -0.5}, {3.5, 1.5, 0.5}, [&](Vec3 p) { return length(p - centre) - radius_mm; }, removed));
+      {0.5, -1.5, -0.5}, {3.5, 1.5, 0.5}, [&](Vec3 p) { return length(p - centre) - radius_mm; },
+      removed));
   const TriangleMesh scan = outer_surface(ground, surface.outside());
   const ScanCut cut = cut_by_scan(scan, caps_over(scan, rims_of(scan)), surface, 0.03, "scan.stl");
   EXPECT_EQ(cut.cavities, 1);
@@ -237,9 +261,13 @@ TEST(ScaleFit, TellsByHowMuchAScanIsTooLarge) {
   for (const double size : {1.01, 0.985, 1.03, 0.95}) {
     TriangleMesh scan{whole.vertices_mm, {}};
     for (const auto& t : whole.triangles)
-      if (std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return whole.vertices_mm[v].z > -3.5; })) scan.triangles.push_back(t);
+      if (std::all_of(t.begin(), t.end(),
+                      [&](std::uint32_t v) { return whole.vertices_mm[v].z > -3.5; }))
+        scan.triangles.push_back(t);
     const Mat3 turn = any_turn(random);
-    for (Vec3& v : scan.vertices_mm) v = turn * (v + Vec3{random.normal(), random.normal(), random.normal()} * 0.01) * size + Vec3{7, -3, 20};
+    for (Vec3& v : scan.vertices_mm)
+      v = turn * (v + Vec3{random.normal(), random.normal(), random.normal()} * 0.01) * size +
+          Vec3{7, -3, 20};
     const auto points = surface_points(scan, 0.15, "scan");
     const auto found = register_scan(points, outside());
     ASSERT_TRUE(found.has_value());
@@ -247,7 +275,8 @@ TEST(ScaleFit, TellsByHowMuchAScanIsTooLarge) {
     const auto sized = fit_with_scale(points, found->best.to_tooth, outside());
     ASSERT_TRUE(sized.has_value()) << size;
     EXPECT_NEAR(sized->scale * size, 1.0, 0.001);
-    EXPECT_TRUE(fits_tooth(fit_of(in_size(points, sized->scale), sized->to_tooth, outside()))) << size;
+    EXPECT_TRUE(fits_tooth(fit_of(in_size(points, sized->scale), sized->to_tooth, outside())))
+        << size;
   }
 }
 
@@ -261,7 +290,8 @@ TEST(Registration, AMirroredToothIsRefusedWithWhatWasFound) {
   const auto points = surface_points(mesh, 0.15, "scan");
   const auto found = register_scan(points, outside());
   ASSERT_TRUE(found.has_value());
-  const auto refused = testing_basics::thrown_by([&] { require_same_tooth(fit_of(points, found->best.to_tooth, outside()), "scan.stl"); });
+  const auto refused = testing_basics::thrown_by(
+      [&] { require_same_tooth(fit_of(points, found->best.to_tooth, outside()), "scan.stl"); });
   EXPECT_EQ(testing_basics::code_of(refused), ScanError::another_tooth);
   EXPECT_EQ(testing_basics::place_of(refused), "scan.stl");
 }

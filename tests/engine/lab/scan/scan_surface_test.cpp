@@ -1,4 +1,5 @@
-// Rims, caps and averaged noise of a scan's surface, and a tooth's printable one, on bodies of known shape.
+// Rims, caps and averaged noise of a scan's surface, and a tooth's printable one, on bodies of
+// known shape.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +19,8 @@ namespace {
 
 using testing_basics::drawn_seed;
 
-/// Two plates of 4 x 4 mm that meet at a right angle along y, the solid below and behind: z = 0 for x < 0, x = 0 for z < 0. Corners every 0.1 mm.
+/// Two plates of 4 x 4 mm that meet at a right angle along y, the solid below and behind: z = 0 for
+/// x < 0, x = 0 for z < 0. Corners every 0.1 mm.
 TriangleMesh edge_of_plates() {
   TriangleMesh mesh;
   constexpr std::uint32_t k_rows = 41, k_columns = 81;
@@ -53,7 +55,10 @@ TEST(ScanSurface, RimsAreFoundAndCapsCloseThem) {
       for (std::size_t i = 0; i < 3; ++i) {
         const auto of = [&](std::uint32_t c) {
           const Vec3 p = m->vertices_mm[c];
-          return number.emplace(std::array<double, 3>{p.x, p.y, p.z}, static_cast<std::uint32_t>(number.size())).first->second;
+          return number
+              .emplace(std::array<double, 3>{p.x, p.y, p.z},
+                       static_cast<std::uint32_t>(number.size()))
+              .first->second;
         };
         const std::uint32_t from = of(t[i]), to = of(t[(i + 1) % 3]);
         ++runs[{from, to}];
@@ -65,9 +70,11 @@ TEST(ScanSurface, RimsAreFoundAndCapsCloseThem) {
 TEST(ScanSurface, NoiseIsAveragedAndTheEdgeStays) {
   Random random(drawn_seed("ScanSurface.NoiseIsAveraged"));
   TriangleMesh mesh = edge_of_plates();
-  for (Vec3& v : mesh.vertices_mm) v += Vec3{random.normal(), random.normal(), random.normal()} * 0.02;
+  for (Vec3& v : mesh.vertices_mm)
+    v += Vec3{random.normal(), random.normal(), random.normal()} * 0.02;
   const auto points = surface_points(mesh, 0.12, "plates");
-  const TriangleMesh even = smoothed(mesh, points, std::vector<std::uint8_t>(mesh.vertices_mm.size(), 1), 0.3);
+  const TriangleMesh even =
+      smoothed(mesh, points, std::vector<std::uint8_t>(mesh.vertices_mm.size(), 1), 0.3);
   double before = 0, after = 0, at_edge = 0;
   int flat = 0, edge = 0;
   for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
@@ -86,7 +93,8 @@ TEST(ScanSurface, NoiseIsAveragedAndTheEdgeStays) {
   EXPECT_NEAR(std::sqrt(before / flat), 0.02, 0.003);
   EXPECT_LT(std::sqrt(after / flat), 0.010);  // half of what came in
   ASSERT_GT(edge, 50);
-  EXPECT_LT(at_edge, 0.07);  // weighted alike, an edge of 90 degrees would sink in by a third of the radius: 0.1 mm
+  EXPECT_LT(at_edge, 0.07);  // weighted alike, an edge of 90 degrees would sink in by a third of
+                             // the radius: 0.1 mm
 }
 
 TEST(ScanSurface, APrintableToothIsOneClosedBodyWithItsCavityAndItsPulpFilled) {
@@ -99,7 +107,8 @@ TEST(ScanSurface, APrintableToothIsOneClosedBodyWithItsCavityAndItsPulpFilled) {
   EXPECT_TRUE(closed(whole.mesh));
   double leaves = 0;
   const auto counts = tooth.octree.count_leaves();
-  for (const auto id : {k_enamel, k_dentin, k_pulp}) leaves += static_cast<double>(counts[id]) * tooth.octree.leaf_volume_mm3();
+  for (const auto id : {k_enamel, k_dentin, k_pulp})
+    leaves += static_cast<double>(counts[id]) * tooth.octree.leaf_volume_mm3();
   EXPECT_NEAR(whole.volume_mm3, leaves, 0.02 * leaves);
 
   // a hollow ball of 1 mm inside is left out
@@ -117,7 +126,9 @@ TEST(ScanSurface, APrintableToothIsOneClosedBodyWithItsCavityAndItsPulpFilled) {
 
   // a hole of 1 mm through the tooth: 16 leaves lie in its section, which has pi/4 mm2
   ASSERT_TRUE(tooth.octree.carve(
-      {-1, -6, -1}, {1, 6, 1}, [&](Vec3 p) { return std::max(std::sqrt(p.x * p.x + p.z * p.z) - 0.5, p.y - 6.0); }, removed));
+      {-1, -6, -1}, {1, 6, 1},
+      [&](Vec3 p) { return std::max(std::sqrt(p.x * p.x + p.z * p.z) - 0.5, p.y - 6.0); },
+      removed));
   const Printable drilled = printable_surface(tooth, around);
   EXPECT_TRUE(closed(drilled.mesh));
   EXPECT_EQ(drilled.left_out, 0u);

@@ -32,7 +32,8 @@ TEST(Bur, HeadsAreConvex) {
     const double r = p.head_radius_mm;
     const auto inside = [&] {
       for (;;) {
-        const Vec3 v{random.uniform(-r, r), random.uniform(-r, r), random.uniform(0, p.cutting_length_mm)};
+        const Vec3 v{random.uniform(-r, r), random.uniform(-r, r),
+                     random.uniform(0, p.cutting_length_mm)};
         if (p.head_distance_mm(v) < 0) return v;
       }
     };
@@ -48,9 +49,11 @@ TEST(Bur, HeadDistanceNeverChangesFasterThanTheWay) {  // what carving asks of a
   for (const auto& name : bur_names()) {
     const Bur p = shipped_bur(name);
     for (int i = 0; i < 5000; ++i) {
-      const Vec3 a{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-0.5, p.cutting_length_mm + 0.5)};
+      const Vec3 a{random.uniform(-1, 1), random.uniform(-1, 1),
+                   random.uniform(-0.5, p.cutting_length_mm + 0.5)};
       const Vec3 b = a + random_direction(random) * random.uniform(0, 0.3);
-      ASSERT_LE(std::fabs(p.head_distance_mm(a) - p.head_distance_mm(b)), length(a - b) + 1e-12) << name;
+      ASSERT_LE(std::fabs(p.head_distance_mm(a) - p.head_distance_mm(b)), length(a - b) + 1e-12)
+          << name;
     }
   }
 }
@@ -74,28 +77,31 @@ TEST(Bur, WidestHeightsBoundWhereTheHeadNarrows) {
 
 TEST(Bur, BrokenFilesAreErrorsWithLineAndColumn) {
   using Broken = std::array<const char*, 3>;
-  for (const auto& [what, from, to] : {Broken{"syntax", "profile = [", "profile = [["},
-                                       {"missing title", "title = \"Round, 1.0 mm\"\n", ""},
-                                       {"missing profile", "profile = [", "outline = ["},
-                                       {"number as text", "cutting_length_mm = 0.9", "cutting_length_mm = \"0.9\""},
-                                       {"cutting length in metres", "cutting_length_mm = 0.9", "cutting_length_mm = 0.0009"},
-                                       {"unknown key", "cutting_length_mm = 0.9", "cutting_length_mm = 0.9\ncolour = 1"},
-                                       {"unknown key in a piece", "{ r_mm = 0.3, z_mm = 1.2 }", "{ r_mm = 0.3, z_mm = 1.2, w = 1 }"},
-                                       {"piece that is no table", "{ r_mm = 0.3, z_mm = 1.2 }", "3"},
-                                       {"negative radius", "r_mm = 0.4, z_mm = 11", "r_mm = -0.4, z_mm = 11"},
-                                       {"NaN", "r_mm = 0.4, z_mm = 11", "r_mm = nan, z_mm = 11"},
-                                       {"centre with one number", "centre = [0, 0.5]", "centre = [0]"},
-                                       {"heights fall", "z_mm = 11 }", "z_mm = 1.0 }"},
-                                       {"arc that does not fit", "centre = [0, 0.5]", "centre = [0, 0.4]"},
-                                       {"arc about NaN", "centre = [0, 0.5]", "centre = [nan, 0.5]"},
-                                       {"hollow head", "cutting_length_mm = 0.9", "cutting_length_mm = 11.5"},
-                                       {"empty profile", "profile = [", "profile = []\nrest = ["}}) {
+  for (const auto& [what, from, to] :
+       {Broken{"syntax", "profile = [", "profile = [["},
+        {"missing title", "title = \"Round, 1.0 mm\"\n", ""},
+        {"missing profile", "profile = [", "outline = ["},
+        {"number as text", "cutting_length_mm = 0.9", "cutting_length_mm = \"0.9\""},
+        {"cutting length in metres", "cutting_length_mm = 0.9", "cutting_length_mm = 0.0009"},
+        {"unknown key", "cutting_length_mm = 0.9", "cutting_length_mm = 0.9\ncolour = 1"},
+        {"unknown key in a piece", "{ r_mm = 0.3, z_mm = 1.2 }",
+         "{ r_mm = 0.3, z_mm = 1.2, w = 1 }"},
+        {"piece that is no table", "{ r_mm = 0.3, z_mm = 1.2 }", "3"},
+        {"negative radius", "r_mm = 0.4, z_mm = 11", "r_mm = -0.4, z_mm = 11"},
+        {"NaN", "r_mm = 0.4, z_mm = 11", "r_mm = nan, z_mm = 11"},
+        {"centre with one number", "centre = [0, 0.5]", "centre = [0]"},
+        {"heights fall", "z_mm = 11 }", "z_mm = 1.0 }"},
+        {"arc that does not fit", "centre = [0, 0.5]", "centre = [0, 0.4]"},
+        {"arc about NaN", "centre = [0, 0.5]", "centre = [nan, 0.5]"},
+        {"hollow head", "cutting_length_mm = 0.9", "cutting_length_mm = 11.5"},
+        {"empty profile", "profile = [", "profile = []\nrest = ["}}) {
     std::string text = bur_text("round-1.0");
     const auto at = text.find(from);
     ASSERT_NE(at, std::string::npos) << from;
     text.replace(at, std::string(from).size(), to);
     const std::string place = place_of(thrown_by([&] { (void)parse_bur(text, "p.toml"); }));
-    EXPECT_TRUE(std::regex_match(place, std::regex("p\\.toml:[0-9]+:[0-9]+"))) << what << ": '" << place << "'";
+    EXPECT_TRUE(std::regex_match(place, std::regex("p\\.toml:[0-9]+:[0-9]+")))
+        << what << ": '" << place << "'";
   }
 }
 
@@ -112,7 +118,8 @@ TEST(Bur, APieceWithoutLengthIsRefusedOrHarmless) {
   text.insert(text.find(piece), piece);
   try {
     const ContactTool tool = make_contact_tool(parse_bur(text, "p.toml"));
-    for (const auto& s : tool.samples) ASSERT_TRUE(is_finite(s.at_mm) && is_finite(s.normal) && std::isfinite(s.area_mm2));
+    for (const auto& s : tool.samples)
+      ASSERT_TRUE(is_finite(s.at_mm) && is_finite(s.normal) && std::isfinite(s.area_mm2));
   } catch (const Error&) {
   }
 }

@@ -10,7 +10,8 @@ namespace {
 using namespace testing_engine;
 
 TEST(HeadField, IsTheDistanceToTheHeadWithinThreeMicrometresOfWhereItMatters) {
-  Random random(drawn_seed("HeadField.IsTheDistanceToTheHeadWithinThreeMicrometresOfWhereItMatters"));
+  Random random(
+      drawn_seed("HeadField.IsTheDistanceToTheHeadWithinThreeMicrometresOfWhereItMatters"));
   for (const auto& name : bur_names()) {
     const Bur bur = shipped_bur(name);
     double worst = 0;

@@ -17,7 +17,8 @@ double worst_violation(const std::vector<HalfSpace>& set, Vec3 s) {
   return worst;
 }
 
-/// The nearest allowed place among all projections onto one, two and three planes: what an optimum must be.
+/// The nearest allowed place among all projections onto one, two and three planes: what an optimum
+/// must be.
 std::optional<Vec3> brute_force(Vec3 wanted, const std::vector<HalfSpace>& set, double tolerance) {
   std::optional<Vec3> best;
   const auto consider = [&](Vec3 s) {
@@ -55,7 +56,10 @@ TEST(HalfSpaces, StepIsTheNearestAllowedOneOfAllCandidates) {
     const Vec3 allowed = random_direction(random) * random.uniform(0, 0.05);
     for (auto n = 1 + random.below(12); n > 0; --n) {
       const Vec3 normal = random_direction(random) * random.uniform(0.9, 1.1);
-      set.push_back({normal, std::max(random.uniform(-0.02, 0.05), 1e-5 - dot(normal, allowed))});  // keeps `allowed` allowed, and 10 nm around it
+      set.push_back(
+          {normal,
+           std::max(random.uniform(-0.02, 0.05),
+                    1e-5 - dot(normal, allowed))});  // keeps `allowed` allowed, and 10 nm around it
     }
     const Vec3 wanted = random_direction(random) * random.uniform(0, 0.1);
     const auto solution = nearest_step(wanted, set);
@@ -63,7 +67,8 @@ TEST(HalfSpaces, StepIsTheNearestAllowedOneOfAllCandidates) {
     ASSERT_TRUE(expected.has_value());
     ASSERT_TRUE(solution.feasible) << "round " << round;
     ASSERT_LE(worst_violation(set, solution.step), 1e-8);
-    ASSERT_NEAR(length(solution.step - wanted), length(*expected - wanted), 1e-7) << "round " << round;
+    ASSERT_NEAR(length(solution.step - wanted), length(*expected - wanted), 1e-7)
+        << "round " << round;
     ASSERT_LE(length(solution.step - *expected), 1e-4) << "round " << round;
     blocked += length(solution.step - wanted) > 1e-6;
   }
@@ -76,11 +81,15 @@ TEST(HalfSpaces, NearlyParallelPlanesOfAFlatSurfaceStayExact) {
   double worst = 0, too_long = 0;
   for (int round = 0; round < 5000; ++round) {
     const Vec3 out = random_direction(random);
-    const double bend = std::pow(10.0, random.uniform(-5, -1.5));  // rounding of the distance codes, to a slightly curved wall
+    const double bend = std::pow(
+        10.0,
+        random.uniform(-5, -1.5));  // rounding of the distance codes, to a slightly curved wall
     std::vector<HalfSpace> set;
     for (auto n = 3 + random.below(10); n > 0; --n)
-      set.push_back({normalized(out + random_direction(random) * bend), random.uniform(-0.001, 0.002) * std::min(1.0, bend * 100)});
-    for (auto n = random.below(4); n > 0; --n) {  // nearly the same once more, as a refinement finds it
+      set.push_back({normalized(out + random_direction(random) * bend),
+                     random.uniform(-0.001, 0.002) * std::min(1.0, bend * 100)});
+    for (auto n = random.below(4); n > 0;
+         --n) {  // nearly the same once more, as a refinement finds it
       HalfSpace again = set[random.below(set.size())];
       again.normal += random_direction(random) * random.uniform(0, 0.1 * bend);
       again.slack_mm += random.uniform(-1, 1) * std::pow(10.0, random.uniform(-16, -6));
@@ -97,7 +106,9 @@ TEST(HalfSpaces, NearlyParallelPlanesOfAFlatSurfaceStayExact) {
     worst = std::max(worst, worst_violation(set, solution.step));
     too_long = std::max(too_long, length(solution.step - wanted) - length(*expected - wanted));
   }
-  std::printf("nearly parallel: unsolved %d of 5000, worst violation %.2g mm, longer than the best by %.2g mm\n", unsolved, worst, too_long);
+  std::printf(
+      "nearly parallel: unsolved %d of 5000, worst violation %.2g mm, longer than the best by %.2g mm\n",
+      unsolved, worst, too_long);
   EXPECT_EQ(unsolved, 0);
   EXPECT_LE(worst, 1e-6);
   EXPECT_LE(too_long, 1e-5);
@@ -112,7 +123,9 @@ TEST(HalfSpaces, ContradictingHalfSpacesAreToldApart) {
   EXPECT_LE(length(s.step - Vec3{0.3, -0.2, 0.01}), 1e-9);
 }
 
-TEST(HalfSpaces, NothingInTheWayGivesTheWantedStep) { EXPECT_EQ(nearest_step({1, 2, 3}, {}).step, (Vec3{1, 2, 3})); }
+TEST(HalfSpaces, NothingInTheWayGivesTheWantedStep) {
+  EXPECT_EQ(nearest_step({1, 2, 3}, {}).step, (Vec3{1, 2, 3}));
+}
 
 }  // namespace
 }  // namespace cavum

@@ -18,12 +18,14 @@ std::vector<RemovedLeaf> room() {
 }
 
 /// A whole carve in one call; false when room ran out.
-bool carve(Octree& tooth, const Bur& bur, const CarvedHead& head, HeadCarving& carving, std::vector<RemovedLeaf>& removed) {
+bool carve(Octree& tooth, const Bur& bur, const CarvedHead& head, HeadCarving& carving,
+           std::vector<RemovedLeaf>& removed) {
   begin_carving(carving, head);
   return go_on_carving(carving, tooth, bur, k_at_once, removed) == CarvingStep::done;
 }
 
-// The head is tabulated (head_field.h): what lies within 4 micrometres of its surface may fall either way.
+// The head is tabulated (head_field.h): what lies within 4 micrometres of its surface may fall
+// either way.
 TEST(CarveHead, RemovesTheLeavesWhoseCentreTheHeadHeldAndNoOther) {
   Random random(drawn_seed("CarveHead.RemovesTheLeavesWhoseCentreTheHeadHeldAndNoOther"));
   for (const auto& name : bur_names()) {
@@ -35,8 +37,10 @@ TEST(CarveHead, RemovesTheLeavesWhoseCentreTheHeadHeldAndNoOther) {
     std::vector<Pose> poses;
     HeadCarving carving;
     Quat turned = random_rotation(random);
-    Vec3 tip{random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9), random.uniform(-1.5, -0.5)}, way = random_direction(random) * 0.02;
-    for (int i = 0; i < 40; ++i) {  // straight runs with one rotation, now and then a turn: the leading side alone is carved
+    Vec3 tip{random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9), random.uniform(-1.5, -0.5)},
+        way = random_direction(random) * 0.02;
+    for (int i = 0; i < 40; ++i) {  // straight runs with one rotation, now and then a turn: the
+                                    // leading side alone is carved
       if (random.below(8) == 0) way = random_direction(random) * 0.02;
       if (random.below(12) == 0) turned = random_rotation(random);
       tip += way;
@@ -51,7 +55,10 @@ TEST(CarveHead, RemovesTheLeavesWhoseCentreTheHeadHeldAndNoOther) {
           const auto i = before.index({x, y, z});
           double nearest = 1e9;
           for (const auto& p : poses)
-            nearest = std::min(nearest, bur.head_distance_mm(rotation(p.rotation).transposed(before.centre_mm({x, y, z}) - p.tip_mm)));
+            nearest = std::min(
+                nearest,
+                bur.head_distance_mm(
+                    rotation(p.rotation).transposed(before.centre_mm({x, y, z}) - p.tip_mm)));
           gone += before.tissue[i] != after.tissue[i];
           if (std::fabs(nearest) < 0.004) continue;
           ASSERT_EQ(after.tissue[i], nearest < 0 ? std::uint8_t{k_air} : before.tissue[i])
@@ -84,7 +91,8 @@ TEST(CarveHead, TheLeadingSideAloneGivesTheToothOfTheWholeHeadToOneCode) {
       const TissueGrid a = one.octree.to_grid(), b = two.octree.to_grid();
       ASSERT_EQ(a.tissue, b.tissue) << name;
       for (std::size_t i = 0; i < a.distance.size(); ++i)
-        ASSERT_LE(std::abs(a.distance[i] - b.distance[i]), 1) << name << " at leaf index " << i << " (127 codes are 2 leaves)";
+        ASSERT_LE(std::abs(a.distance[i] - b.distance[i]), 1)
+            << name << " at leaf index " << i << " (127 codes are 2 leaves)";
     }
 }
 
@@ -109,12 +117,14 @@ void spread_over_many_ticks(std::uint64_t seed) {
       const auto before = two.octree.edit_hash();
       const auto listed = removed_two.size();
       for (CarvingStep step = CarvingStep::under_way; step == CarvingStep::under_way; ++calls) {
-        ASSERT_TRUE(two.octree.edit_hash() == before || spread.plan.progress() >> 32 > 0 || spread.worked_out)
+        ASSERT_TRUE(two.octree.edit_hash() == before || spread.plan.progress() >> 32 > 0 ||
+                    spread.worked_out)
             << "edited before anything was worked out";
         if (two.octree.edit_hash() == before) {
           ASSERT_EQ(removed_two.size(), listed);
         }
-        step = go_on_carving(spread, two.octree, bur, static_cast<int>(random.below(600)) + 1, removed_two);
+        step = go_on_carving(spread, two.octree, bur, static_cast<int>(random.below(600)) + 1,
+                             removed_two);
         ASSERT_NE(step, CarvingStep::no_room);
         ASSERT_LT(calls, 100000) << "it never ends";
       }
@@ -131,9 +141,12 @@ void spread_over_many_ticks(std::uint64_t seed) {
 }
 
 TEST(CarveHead, SpreadOverManyTicksItGivesTheSameBitsAndNothingBeforeTheLast) {
-  spread_over_many_ticks(drawn_seed("CarveHead.SpreadOverManyTicksItGivesTheSameBitsAndNothingBeforeTheLast"));
+  spread_over_many_ticks(
+      drawn_seed("CarveHead.SpreadOverManyTicksItGivesTheSameBitsAndNothingBeforeTheLast"));
 }
-TEST(CarveHead, APlanThatIsAppliedInPartsGivesTheSameBits) { spread_over_many_ticks(70199232396505137); }  // drawn once
+TEST(CarveHead, APlanThatIsAppliedInPartsGivesTheSameBits) {
+  spread_over_many_ticks(70199232396505137);
+}  // drawn once
 
 TEST(CarveHead, WhatIsDroppedWasNeverCarved) {
   const Bur bur = shipped_bur("round-1.0");

@@ -1,4 +1,5 @@
-// The law of cutting as the whole step applies it: steady penetration, swept volume, and when nothing is cut.
+// The law of cutting as the whole step applies it: steady penetration, swept volume, and when
+// nothing is cut.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -18,15 +19,19 @@ constexpr double k_tau = 2.02, k_feed = 0.25;
 const Tooth& block(double leaf_mm) {
   static std::map<double, Tooth> made;
   auto found = made.find(leaf_mm);
-  if (found == made.end()) found = made.emplace(leaf_mm, make_block({2.4, 2.4, 3.4}, {{"enamel", 3.4}}, leaf_mm)).first;
+  if (found == made.end())
+    found = made.emplace(leaf_mm, make_block({2.4, 2.4, 3.4}, {{"enamel", 3.4}}, leaf_mm)).first;
   return found->second;
 }
 
 /// X(t) of a surface that recedes at X/τ under a feed that began at the surface at t = 0.
-double closed_x_mm(double t_s, double feed_mm_s = k_feed, double tau_s = k_tau) { return feed_mm_s * tau_s * (1 - std::exp(-t_s / tau_s)); }
+double closed_x_mm(double t_s, double feed_mm_s = k_feed, double tau_s = k_tau) {
+  return feed_mm_s * tau_s * (1 - std::exp(-t_s / tau_s));
+}
 
 struct Plunge {
-  double mean_x = 0, least_x = 1e9, most_x = 0, worst_from_closed = 0, removed_mm3 = 0, depth_mm = 0;
+  double mean_x = 0, least_x = 1e9, most_x = 0, worst_from_closed = 0, removed_mm3 = 0,
+         depth_mm = 0;
 };
 
 /// Lifts off at once and waits until what was owed is carved.
@@ -46,7 +51,9 @@ Plunge plunge(double k, double leaf, double dt, double t_s) {
   for (int i = 1; i <= n; ++i) {
     const double t = i * dt - lead;
     const TickOutput out = rig.tick({0, 0, -k_feed * t}, 1.0);
-    if (t > 0.1) p.worst_from_closed = std::max(p.worst_from_closed, std::fabs(out.penetration_mm - closed_x_mm(t)));
+    if (t > 0.1)
+      p.worst_from_closed =
+          std::max(p.worst_from_closed, std::fabs(out.penetration_mm - closed_x_mm(t)));
     if (i > n - last) {
       p.mean_x += out.penetration_mm / last;
       p.least_x = std::min(p.least_x, out.penetration_mm);
@@ -66,30 +73,39 @@ TEST(Cutting, SteadyPenetrationIs0_505MmWhateverStiffnessLeafAndTick) {
       for (const double k : {0.2, 0.8, 1.2}) {
         if (k == 0.8 && dt < 0.001) continue;
         const Plunge p = plunge(k, leaf, dt, 12.0);
-        least = std::min(least, p.least_x), most = std::max(most, p.most_x), off = std::max(off, p.worst_from_closed);
+        least = std::min(least, p.least_x), most = std::max(most, p.most_x),
+        off = std::max(off, p.worst_from_closed);
         EXPECT_NEAR(p.mean_x, 0.505, 0.01) << "k " << k << " leaf " << leaf << " tick " << dt;
         EXPECT_GE(p.least_x, 0.495) << "k " << k << " leaf " << leaf << " tick " << dt;
         EXPECT_LE(p.most_x, 0.515) << "k " << k << " leaf " << leaf << " tick " << dt;
-        EXPECT_LE(p.worst_from_closed, 0.01) << "from V tau (1 - exp(-t/tau)); k " << k << " leaf " << leaf << " tick " << dt;
+        EXPECT_LE(p.worst_from_closed, 0.01)
+            << "from V tau (1 - exp(-t/tau)); k " << k << " leaf " << leaf << " tick " << dt;
         const double swept = k_pi * 0.25 * (p.depth_mm - 0.5) + 2.0 / 3.0 * k_pi * 0.125;
         volume = std::max(volume, std::fabs(p.removed_mm3 / swept - 1) * 100);
-        EXPECT_NEAR(p.removed_mm3 / swept, 1.0, 0.02) << "volume; k " << k << " leaf " << leaf << " tick " << dt;
+        EXPECT_NEAR(p.removed_mm3 / swept, 1.0, 0.02)
+            << "volume; k " << k << " leaf " << leaf << " tick " << dt;
       }
-  std::printf("plunge: X %.4f .. %.4f mm in the last second, at most %.4f mm from the closed form; volume within %.2f %%\n", least, most, off,
-              volume);
+  std::printf(
+      "plunge: X %.4f .. %.4f mm in the last second, at most %.4f mm from the closed form; volume within %.2f %%\n",
+      least, most, off, volume);
 }
 
 TEST(Cutting, NoHeadIsHeldInTheHoleItCuts) {
   Random random(drawn_seed("Cutting.NoHeadIsHeldInTheHoleItCuts"));
-  for (const char* name : {"round-0.8", "round-1.0", "round-1.4", "pear-1.0", "taper-round-1.2", "cylinder-flat-1.0", "inverted-cone-1.0"}) {
+  for (const char* name : {"round-0.8", "round-1.0", "round-1.4", "pear-1.0", "taper-round-1.2",
+                           "cylinder-flat-1.0", "inverted-cone-1.0"}) {
     double most = 0;
-    for (int i = 0; i < 8; ++i) {  // anywhere within a leaf: a width of whole leaves once let both walls hold the head
-      const double x = random.uniform(-0.05, 0.05), y = i % 2 == 0 ? 0.0 : random.uniform(-0.05, 0.05), quantum = i % 4 < 2 ? 0.055 : 0.0;
+    for (int i = 0; i < 8; ++i) {  // anywhere within a leaf: a width of whole leaves once let both
+                                   // walls hold the head
+      const double x = random.uniform(-0.05, 0.05),
+                   y = i % 2 == 0 ? 0.0 : random.uniform(-0.05, 0.05),
+                   quantum = i % 4 < 2 ? 0.055 : 0.0;
       Rig rig(block(0.05), {shipped_bur(name)}, hard_model(0.8, 0), {x, y, 0.05});
       rig.spin_up({x, y, 0.05});
       for (int t = 1; t <= 10000; ++t) {
         const double z = 0.05 - k_feed * 1e-3 * t;
-        const TickOutput out = rig.tick({x, y, quantum > 0 ? std::floor(z / quantum) * quantum : z}, 1.0);
+        const TickOutput out =
+            rig.tick({x, y, quantum > 0 ? std::floor(z / quantum) * quantum : z}, 1.0);
         most = std::max(most, out.penetration_mm - quantum);
       }
     }
@@ -107,8 +123,9 @@ TEST(Cutting, RemovalDoesNotDependOnTheLengthOfATick) {
 }
 
 TEST(Cutting, WhatIsOwedAtLiftOffIsCarvedWhereItWasOwed) {
-  // A tool that jumps out of a deep hole touches its walls on the way: that must not push aside what is owed at the bottom.
-  // 0.003 mm: what gathers by its long way to the device until it is out, and the least that is carved.
+  // A tool that jumps out of a deep hole touches its walls on the way: that must not push aside
+  // what is owed at the bottom. 0.003 mm: what gathers by its long way to the device until it is
+  // out, and the least that is carved.
   for (const double dt : {0.001, 0.00025})
     for (double t_s = 5.9; t_s < 6.17; t_s += 0.05) {
       Rig rig(block(0.05), {shipped_bur("round-1.0")}, hard_model(0.8, 0), {0, 0, 0.05}, dt);
@@ -117,7 +134,8 @@ TEST(Cutting, WhatIsOwedAtLiftOffIsCarvedWhereItWasOwed) {
       const int n = static_cast<int>((t_s + lead) / dt + 0.5);
       for (int i = 1; i <= n; ++i) (void)rig.tick({0, 0, -k_feed * (i * dt - lead)}, 1.0);
       lift_off(rig, {0, 0, 0.3});
-      EXPECT_NEAR(-rig.state.carving.last.tip_mm.z, k_feed * t_s - closed_x_mm(t_s), 0.003) << "after " << t_s << " s, tick " << dt;
+      EXPECT_NEAR(-rig.state.carving.last.tip_mm.z, k_feed * t_s - closed_x_mm(t_s), 0.003)
+          << "after " << t_s << " s, tick " << dt;
     }
 }
 
@@ -129,12 +147,15 @@ TEST(Cutting, ASlotHasTheVolumeAndTheWallsOfItsSweep) {
     rig.spin_up({-2, 0, -depth});
     const TickOutput out = rig.travel({-2, 0, -depth}, {0.4, 0, -depth}, 1.0, 1.0);
     EXPECT_NEAR(out.penetration_mm, 0.2, 0.01) << "X = V tau";
-    EXPECT_NEAR(rig.state.carving.last.tip_mm.x, 0.4 - out.penetration_mm, 0.04) << "before it lifts off a step may be owed";
-    (void)rig.travel({0.4, 0, -depth}, {0.1, 0, -depth}, 1.0, 1.0);  // X' = -V - X/tau from V tau on: it lets go after tau ln 2
+    EXPECT_NEAR(rig.state.carving.last.tip_mm.x, 0.4 - out.penetration_mm, 0.04)
+        << "before it lifts off a step may be owed";
+    (void)rig.travel({0.4, 0, -depth}, {0.1, 0, -depth}, 1.0,
+                     1.0);  // X' = -V - X/tau from V tau on: it lets go after tau ln 2
     lift_off(rig, {0.1, 0, -depth});
     const double reached = rig.state.carving.last.tip_mm.x;
     EXPECT_NEAR(reached, 0.4 - 0.2 * std::log(2.0), 0.004);
-    const double swept = depth * (2 * r * (reached + half) + k_pi * r * r / 2), removed = removed_mm3(tooth.octree, rig.state.tooth);
+    const double swept = depth * (2 * r * (reached + half) + k_pi * r * r / 2),
+                 removed = removed_mm3(tooth.octree, rig.state.tooth);
     // walls and floor, away from both ends, against the sweep
     Octree::Cursor cursor;
     double worst = 0, sum2 = 0;
@@ -148,19 +169,22 @@ TEST(Cutting, ASlotHasTheVolumeAndTheWallsOfItsSweep) {
           ++n;
         }
       }
-    std::printf("slot, leaf %.3f mm: volume %+.2f %%, walls and floor at most %.4f mm from the sweep, %.4f mm rms\n", leaf,
-                (removed / swept - 1) * 100, worst, std::sqrt(sum2 / n));
+    std::printf(
+        "slot, leaf %.3f mm: volume %+.2f %%, walls and floor at most %.4f mm from the sweep, %.4f mm rms\n",
+        leaf, (removed / swept - 1) * 100, worst, std::sqrt(sum2 / n));
     EXPECT_NEAR(removed / swept, 1.0, 0.02) << leaf;
     EXPECT_LE(worst, 0.5 * leaf) << "roughness of a straight cut";
   }
 }
 
 TEST(Cutting, ManyShortPecksCutAsDeepAsOneLongPress) {
-  // Held 0.3 mm into the tooth, the surface recedes by X (1 - exp(-t/tau)): in each peck of its own, or in one press
+  // Held 0.3 mm into the tooth, the surface recedes by X (1 - exp(-t/tau)): in each peck of its
+  // own, or in one press
   const double press_mm = 0.3;
   for (const double leaf : {0.05, 0.025})
     for (const int pecks : {1, 4, 20}) {
-      Rig rig(block(leaf), {shipped_bur("cylinder-flat-1.0")}, hard_model(0.8, 0, k_tau), {0, 0, 0.05});
+      Rig rig(block(leaf), {shipped_bur("cylinder-flat-1.0")}, hard_model(0.8, 0, k_tau),
+              {0, 0, 0.05});
       rig.spin_up({0, 0, 0.05});
       const int ticks = 800 / pecks;
       double depth = 0;
@@ -170,7 +194,8 @@ TEST(Cutting, ManyShortPecksCutAsDeepAsOneLongPress) {
         depth += press_mm * (1 - std::exp(-ticks * 1e-3 / k_tau));
       }
       const double reached = -rig.state.carving.last.tip_mm.z;
-      std::printf("leaf %.3f, %2d pecks of %3d ms: %.4f mm deep, %.4f by the law\n", leaf, pecks, ticks, reached, depth);
+      std::printf("leaf %.3f, %2d pecks of %3d ms: %.4f mm deep, %.4f by the law\n", leaf, pecks,
+                  ticks, reached, depth);
       EXPECT_NEAR(reached, depth, 0.03 * depth + 0.001) << pecks << " pecks";
     }
 }
@@ -204,7 +229,8 @@ TEST(Cutting, ACarveIsMadeLongBeforeTheNextIsDueThoughATickDoesLittleOfIt) {
       longest = std::max(longest, now);
       most_mm = std::max(most_mm, rig.state.recession.pending_mm);
     }
-    std::printf("%s, leaf 0.025: %d carves, at most %d ticks each, %.4f mm owed\n", name, carves, longest + 1, most_mm);
+    std::printf("%s, leaf 0.025: %d carves, at most %d ticks each, %.4f mm owed\n", name, carves,
+                longest + 1, most_mm);
     EXPECT_GT(longest, 1) << name << ": it should not be made in a single tick";
     EXPECT_LE(longest, 50) << name << ": half of the time to the next one at 0.25 mm/s";
     EXPECT_LE(most_mm, 1.5 * 0.025) << name << ": at 3 steps recession is lost";
@@ -247,7 +273,8 @@ TEST(Cutting, NothingIsRemovedWithTheHandpieceStillThePedalUnknownOrOutOfContact
   Rig control(block(0.05), {shipped_bur("round-1.0")}, hard_model(0.8, 0), {0, 0, 0.3});
   control.spin_up({0, 0, 0.3});
   (void)control.travel({0, 0, 0.3}, {0, 0, -0.3}, 0.5, 1.0);
-  EXPECT_GT(removed_mm3(block(0.05).octree, control.state.tooth), 0.0) << "the same press with the pedal down does cut";
+  EXPECT_GT(removed_mm3(block(0.05).octree, control.state.tooth), 0.0)
+      << "the same press with the pedal down does cut";
 }
 
 TEST(Cutting, ALostPedalStopsTheHandpieceInTheSameTick) {
@@ -279,7 +306,8 @@ TEST(Cutting, RemovedLeavesAreListedOnceAndWereSolid) {
     }
     listed += rig.state.removed.size();
   }
-  EXPECT_NEAR(static_cast<double>(listed) * 1.25e-4, removed_mm3(block(0.05).octree, rig.state.tooth), 1e-9);
+  EXPECT_NEAR(static_cast<double>(listed) * 1.25e-4,
+              removed_mm3(block(0.05).octree, rig.state.tooth), 1e-9);
 }
 
 }  // namespace

@@ -40,11 +40,13 @@ TEST(Rendering, AtRestIsTheSpringWithin1Percent) {
       for (const double x : {0.05, 0.25, 1.0}) {
         Press run{{}, tissue, dt};
         double f = 0;
-        for (double t = 0; t < 0.02; t += dt) f = run.to(x * t / 0.02);                       // quickly in
-        const double settle = 0.03 + 8 * tissue.damping_n_s_per_mm / run.model.kvc_n_per_mm;  // the branch relaxes with c/Kvc
+        for (double t = 0; t < 0.02; t += dt) f = run.to(x * t / 0.02);  // quickly in
+        const double settle = 0.03 + 8 * tissue.damping_n_s_per_mm /
+                                         run.model.kvc_n_per_mm;  // the branch relaxes with c/Kvc
         for (double t = 0; t < settle; t += dt) f = run.to(x);
         EXPECT_NEAR(f / (tissue.stiffness_n_per_mm * x), 1.0, 0.01)
-            << "k " << tissue.stiffness_n_per_mm << " c " << tissue.damping_n_s_per_mm << " X " << x;
+            << "k " << tissue.stiffness_n_per_mm << " c " << tissue.damping_n_s_per_mm << " X "
+            << x;
       }
 }
 
@@ -57,7 +59,8 @@ TEST(Rendering, AtConstantSpeedSettlesOnTheVoigtLawWithin2Percent) {
         const double settle = 0.05 + 8 * tissue.damping_n_s_per_mm / run.model.kvc_n_per_mm;
         for (int i = 1; t < settle; ++i) f = run.to(v * (t = i * dt));
         const double law = tissue.stiffness_n_per_mm * run.x_mm + tissue.damping_n_s_per_mm * v;
-        EXPECT_NEAR(f / law, 1.0, 0.02) << "k " << tissue.stiffness_n_per_mm << " c " << tissue.damping_n_s_per_mm << " V " << v << " dt " << dt;
+        EXPECT_NEAR(f / law, 1.0, 0.02) << "k " << tissue.stiffness_n_per_mm << " c "
+                                        << tissue.damping_n_s_per_mm << " V " << v << " dt " << dt;
       }
 }
 
@@ -66,7 +69,8 @@ TEST(Rendering, TheBranchFollowsItsClosedFormOnARamp) {  // z = c V (1 - exp(-t 
   run.model.filtered_damping_n_s_per_mm = 0;
   for (int i = 1; i <= 5000; ++i) {
     const double t = i * 0.001,
-                 z = run.tissue.damping_n_s_per_mm * 0.25 * (1 - std::exp(-t * run.model.kvc_n_per_mm / run.tissue.damping_n_s_per_mm));
+                 z = run.tissue.damping_n_s_per_mm * 0.25 *
+                     (1 - std::exp(-t * run.model.kvc_n_per_mm / run.tissue.damping_n_s_per_mm));
     ASSERT_NEAR(run.to(0.25 * t), z, 2e-4);
   }
 }
@@ -111,16 +115,21 @@ TEST(Rendering, LeavingContactForgetsTheBranch) {
 }
 
 TEST(Rendering, TheBranchGivesBackNoMoreThanItTook) {
-  // Energy taken up since rest, sum of F·dX, must never fall below zero: on any way, in any closed cycle, at any tick.
+  // Energy taken up since rest, sum of F·dX, must never fall below zero: on any way, in any closed
+  // cycle, at any tick.
   Random random(drawn_seed("Rendering.TheBranchGivesBackNoMoreThanItTook"));
   for (int round = 0; round < 400; ++round) {
-    const double c = std::exp(random.uniform(std::log(1e-4), std::log(10.0))), dt = random.uniform(1e-4, 0.01);
+    const double c = std::exp(random.uniform(std::log(1e-4), std::log(10.0))),
+                 dt = random.uniform(1e-4, 0.01);
     Press run{{}, {0.0, c}, dt};
     run.model.filtered_damping_n_s_per_mm = 0;
     double absorbed = 0, x = 0, most = 0;
     const double turn = random.uniform(0.01, 1), size = random.uniform(0.01, 1);
     for (int i = 0; i < 600; ++i) {
-      const double target = i >= 590 ? 0.0 : size * (round % 2 ? random.uniform(-1, 1) : std::sin(i * turn));  // ends where it began
+      const double target = i >= 590
+                                ? 0.0
+                                : size * (round % 2 ? random.uniform(-1, 1)
+                                                    : std::sin(i * turn));  // ends where it began
       const double f = run.to(target);
       absorbed += f * (target - x);
       x = target;
@@ -141,14 +150,16 @@ TEST(Rendering, TheBranchHoldsNoMoreThanTheLawAtTheFastestSpeedLeftOpen) {
   run.state.branch_n = -0.6;
   (void)render_force_n(run.model, run.tissue, run.state, true, 1.0, 0.0, 0.001, 0.0, 0.2);
   EXPECT_NEAR(run.state.branch_n, -1.79 * 0.2, 1e-12) << "neither when it pulls";
-  EXPECT_EQ(render_force_n(run.model, {0.8, 0.0}, run.state, true, 1.0, 0.0, 0.001), 0.8) << "without damping there is nothing to bound";
+  EXPECT_EQ(render_force_n(run.model, {0.8, 0.0}, run.state, true, 1.0, 0.0, 0.001), 0.8)
+      << "without damping there is nothing to bound";
 }
 
 TEST(Rendering, SpeedFilterSettlesOnTheSpeed) {
   RenderState state;
   const RenderingModel model;
   for (int i = 0; i < 5; ++i) update_speed(model, state, true, 0.002, 0.001);
-  EXPECT_NEAR(state.speed_mm_s, 2.0 * (1 - std::pow(5.0 / 6.0, 5)), 1e-12);  // backward Euler of a 5 ms lag
+  EXPECT_NEAR(state.speed_mm_s, 2.0 * (1 - std::pow(5.0 / 6.0, 5)),
+              1e-12);  // backward Euler of a 5 ms lag
   for (int i = 0; i < 100; ++i) update_speed(model, state, true, 0.002, 0.001);
   EXPECT_NEAR(state.speed_mm_s, 2.0, 1e-6);
 }

@@ -22,16 +22,21 @@ double line_n(const std::vector<double>& f, double frequency_hz, double tick_s) 
   return 2 * std::sqrt(s * s + c * c) / static_cast<double>(f.size());
 }
 
-TermInput at_speed(double rpm, double dt_s = 0.001) { return {true, 0.3, 0, 0, 0.8, 0, 0.24, rpm, 0, dt_s}; }
+TermInput at_speed(double rpm, double dt_s = 0.001) {
+  return {true, 0.3, 0, 0, 0.8, 0, 0.24, rpm, 0, dt_s};
+}
 
 TEST(RunOut, IsASineOfTheTurnsMade) {
   for (const double dt : {0.001, 0.00025, 0.0137})
     for (const double rpm : {0.1, 1000.0, 40000.0, 199999.0, 200000.0}) {
-      const ForceTermPtr term = make_force_term("run_out", {{"amplitude_n", 0.01}, {"eccentricity_um", 20}, {"phase_turns", 0.125}}, "test");
+      const ForceTermPtr term = make_force_term(
+          "run_out", {{"amplitude_n", 0.01}, {"eccentricity_um", 20}, {"phase_turns", 0.125}},
+          "test");
       TermMemory memory{};
       for (int i = 1; i <= 4000; ++i) {
         const double turns = rpm / 60 * dt * i + 0.125, amplitude = 0.01 + 0.020 * 0.8;
-        ASSERT_NEAR(term->evaluate(at_speed(rpm, dt), memory).tissue_n, amplitude * std::sin(2 * k_pi * turns), 1e-7 * amplitude * (1 + turns));
+        ASSERT_NEAR(term->evaluate(at_speed(rpm, dt), memory).tissue_n,
+                    amplitude * std::sin(2 * k_pi * turns), 1e-7 * amplitude * (1 + turns));
         ASSERT_GE(memory[0], 0.0);
         ASSERT_LT(memory[0], 1.0);
       }
@@ -45,7 +50,8 @@ TEST(RunOut, FollowsASpindleThatRunsUp) {  // turns = ∫ rpm/60 dt
   for (int i = 0; i < 3000; ++i) {
     const double rpm = 50.0 * i;
     turns += rpm / 60 * 0.001;
-    ASSERT_NEAR(term->evaluate(at_speed(rpm), memory).tissue_n, rpm > 0 ? 0.05 * std::sin(2 * k_pi * turns) : 0.0, 1e-9);
+    ASSERT_NEAR(term->evaluate(at_speed(rpm), memory).tissue_n,
+                rpm > 0 ? 0.05 * std::sin(2 * k_pi * turns) : 0.0, 1e-9);
   }
 }
 
@@ -55,10 +61,12 @@ TEST(RunOut, IsALineAtTheAliasOfTheSpindleRate) {
     const ForceTerms terms{make_force_term("run_out", {{"eccentricity_um", 20.0}}, "test")};
     TermMemory memory{};
     std::vector<double> f;
-    for (int i = 0; i < 3000; ++i) f.push_back(force_along_feed_n(terms, at_speed(rpm), {&memory, 1}));
+    for (int i = 0; i < 3000; ++i)
+      f.push_back(force_along_feed_n(terms, at_speed(rpm), {&memory, 1}));
     double alias = std::fmod(rpm / 60, 1 / tick_s);
     alias = std::min(alias, 1 / tick_s - alias);
-    EXPECT_NEAR(line_n(f, alias, tick_s), 0.020 * 0.8, 1e-6) << rpm << " rpm, seen at " << alias << " Hz";
+    EXPECT_NEAR(line_n(f, alias, tick_s), 0.020 * 0.8, 1e-6)
+        << rpm << " rpm, seen at " << alias << " Hz";
     EXPECT_LT(line_n(f, alias + 7, tick_s), 1e-3 * 0.016);
   }
 }
@@ -74,7 +82,8 @@ TEST(RunOut, NeitherInAirNorAtRest) {
 }
 
 TEST(RunOut, TheServoFeelsItWhileItDrills) {
-  const ForceModel force = with_terms(hard_model(0.8, 0.012, 50), {{"run_out", {{"amplitude_n", 0.03}}}});
+  const ForceModel force =
+      with_terms(hard_model(0.8, 0.012, 50), {{"run_out", {{"amplitude_n", 0.03}}}});
   for (const auto& base : {force, hard_model(0.8, 0.012, 50)}) {
     Rig rig(make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, base, {0, 0, 0.1});
     rig.spin_up({0, 0, 0.1});

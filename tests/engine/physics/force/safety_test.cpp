@@ -26,13 +26,16 @@ struct Gate {
 
 TEST(Safety, NoInputDrivesTheForcePastPeakSlewOrANumber) {
   Random random(drawn_seed("Safety.NoInputDrivesTheForcePastPeakSlewOrANumber"));
-  const double odd[] = {NAN, INFINITY, -INFINITY, 1e308, -1e308, std::numeric_limits<double>::denorm_min(), 0.0};
+  const double odd[] = {
+      NAN, INFINITY, -INFINITY, 1e308, -1e308, std::numeric_limits<double>::denorm_min(), 0.0};
   for (const double dt : {0.001, 0.00025}) {
     Gate gate;
     gate.dt_s = dt;
     Vec3 before;
     for (int i = 0; i < 50000; ++i) {
-      const auto value = [&] { return random.below(20) == 0 ? odd[random.below(7)] : random.uniform(-10, 10); };
+      const auto value = [&] {
+        return random.below(20) == 0 ? odd[random.below(7)] : random.uniform(-10, 10);
+      };
       const Vec3 wanted{value(), value(), value()};
       const Vec3 f = gate.give(wanted, random.below(5) != 0);
       ASSERT_TRUE(is_finite(f));
@@ -115,7 +118,8 @@ TEST(Safety, SilentStylusFadesTheForceToZeroWithin10Ms) {
     for (const double n : {0.3, 0.88, 2.0, 3.0, 3.3}) {
       Gate gate;
       gate.dt_s = dt;
-      EXPECT_LE(ticks_to_zero(gate, {0, n, 0}) * dt, 0.010 + 1e-9) << n << " N at a tick of " << dt << " s";
+      EXPECT_LE(ticks_to_zero(gate, {0, n, 0}) * dt, 0.010 + 1e-9)
+          << n << " N at a tick of " << dt << " s";
       EXPECT_NE(gate.notices & k_notice_stale_stylus, 0);
       EXPECT_LE(length(gate.give({0, n, 0}, false)), 1e-9) << "and it stays at zero";
     }

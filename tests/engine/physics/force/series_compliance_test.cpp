@@ -9,7 +9,9 @@ namespace {
 
 using namespace testing_engine;
 
-ForceModel compliant(double k, double c, double ks) { return with_terms(hard_model(k, c), {{"series_compliance", {{"ks_n_per_mm", ks}}}}); }
+ForceModel compliant(double k, double c, double ks) {
+  return with_terms(hard_model(k, c), {{"series_compliance", {{"ks_n_per_mm", ks}}}});
+}
 
 /// Two springs in series, solved by halving: where both carry the same force.
 double in_series_n(double k, double ks, double x_mm) {
@@ -24,7 +26,8 @@ double in_series_n(double k, double ks, double x_mm) {
 TEST(SeriesCompliance, IsTwoSpringsInSeries) {
   Random random(drawn_seed("SeriesCompliance.IsTwoSpringsInSeries"));
   for (int i = 0; i < 2000; ++i) {
-    const double k = random.uniform(0, 2), ks = random.uniform(0.05, 20), x = random.uniform(0.001, 2);
+    const double k = random.uniform(0, 2), ks = random.uniform(0.05, 20),
+                 x = random.uniform(0.001, 2);
     const ForceTerms terms = compliant(0.8, 0, ks).terms;
     TermMemory memory{};
     const TermInput in{true, x, 0, 0, k, 0, 0, 0, 0, 0.001};
@@ -48,7 +51,8 @@ TEST(SeriesCompliance, LeavesTheDamperAndTheAirAsTheyAre) {
 
 TEST(SeriesCompliance, AtRestTheServoRendersItWithin1Percent) {
   for (const double ks : {0.3, 0.8, 5.0}) {
-    Rig rig(make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, compliant(0.8, 1.79, ks), {0, 0, 0.05});
+    Rig rig(make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, compliant(0.8, 1.79, ks),
+            {0, 0, 0.05});
     (void)rig.travel({0, 0, 0.05}, {0, 0, -0.8}, 2.0);
     TickOutput out;
     for (int i = 0; i < 20000; ++i) out = rig.tick({0, 0, -0.8}, 0);

@@ -15,9 +15,11 @@ TEST(Lateness, EveryTickIsInTheBinWhoseEdgesHoldIt) {
   Random random(drawn_seed("Lateness.EveryTickIsInTheBinWhoseEdgesHoldIt"));
   for (int i = 0; i < 3000; ++i) {
     Lateness l;
-    const auto ns = static_cast<std::int64_t>(random.below(10) == 0 ? random.below(400'000'000) : random.below(2'000'000));
+    const auto ns = static_cast<std::int64_t>(random.below(10) == 0 ? random.below(400'000'000)
+                                                                    : random.below(2'000'000));
     l.add(ns);
-    const auto bin = static_cast<std::size_t>(std::find(l.counts.begin(), l.counts.end(), 1) - l.counts.begin());
+    const auto bin =
+        static_cast<std::size_t>(std::find(l.counts.begin(), l.counts.end(), 1) - l.counts.begin());
     ASSERT_LT(bin, l.counts.size());
     if (bin < Lateness::k_edges_us.size()) {
       ASSERT_LE(ns, Lateness::k_edges_us[bin] * 1000);

@@ -27,14 +27,16 @@ Pose pressing(double t_s) { return {{0, 0, 0.1 - std::min(0.9, 20 * t_s)}, {}}; 
 
 /// Servo, stream and a device with a fault; emptied after the run.
 struct Live {
-  Rig rig{make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, hard_model(0.8, 0.012), {0, 0, 0.1}};
+  Rig rig{
+      make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, hard_model(0.8, 0.012), {0, 0, 0.1}};
   TickStream stream;
   FaultyDevice device;
   RealTimeOptions options;
   RealTimeReport report;
   std::vector<ServoTick> ticks;
 
-  explicit Live(FaultyDevice::Fault fault, std::size_t ring = 1u << 15) : stream(ring), device(pressing, 0.0, std::move(fault)) {}
+  explicit Live(FaultyDevice::Fault fault, std::size_t ring = 1u << 15)
+      : stream(ring), device(pressing, 0.0, std::move(fault)) {}
   void go(std::int64_t max_ticks) {
     options.max_ticks = max_ticks;
     RealTimeServo servo(rig.model, rig.state, device, stream, {}, options);
@@ -49,7 +51,8 @@ struct Live {
   }
 };
 
-constexpr double k_patience_s = 5.0;  // a shared machine has held up a thread for more than a second
+constexpr double k_patience_s =
+    5.0;  // a shared machine has held up a thread for more than a second
 
 TEST(RealTime, KeepsThePaceOfTheClockAndTellsWhatItGot) {
   Live run({});
@@ -60,26 +63,32 @@ TEST(RealTime, KeepsThePaceOfTheClockAndTellsWhatItGot) {
   EXPECT_EQ(run.report.ended.why, ServoEnd::ticks);
   EXPECT_EQ(run.report.lateness.ticks, 500);
   EXPECT_GE(seconds, 0.499) << "never faster than real time";
-  EXPECT_LT(seconds, 0.499 + static_cast<double>(run.report.lateness.worst_ns) * 1e-9 + k_patience_s);
+  EXPECT_LT(seconds,
+            0.499 + static_cast<double>(run.report.lateness.worst_ns) * 1e-9 + k_patience_s);
   EXPECT_TRUE(run.report.fifo.asked && run.report.memory.asked);
   std::printf("fifo: %s, memory: %s, late mean %.1f worst %.1f us, %lld overruns\n",
               run.report.fifo.granted() ? "yes" : std::strerror(run.report.fifo.error),
-              run.report.memory.granted() ? "locked" : std::strerror(run.report.memory.error), run.report.lateness.mean_us(),
-              run.report.lateness.worst_us(), static_cast<long long>(run.report.overruns));
+              run.report.memory.granted() ? "locked" : std::strerror(run.report.memory.error),
+              run.report.lateness.mean_us(), run.report.lateness.worst_us(),
+              static_cast<long long>(run.report.overruns));
   ASSERT_EQ(run.ticks.size(), 500u);
-  for (std::size_t i = 0; i < run.ticks.size(); ++i) ASSERT_EQ(run.ticks[i].tick, static_cast<std::int64_t>(i));
+  for (std::size_t i = 0; i < run.ticks.size(); ++i)
+    ASSERT_EQ(run.ticks[i].tick, static_cast<std::int64_t>(i));
   EXPECT_EQ(run.device.sent.back().force_n, Vec3{}) << "zero force at the end";
 }
 
 TEST(RealTime, GivesTheSameBitsAsTheSameInputsWithoutAClock) {
   Live run({});
   run.go(400);
-  Rig again{make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, hard_model(0.8, 0.012), {0, 0, 0.1}};
+  Rig again{
+      make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, hard_model(0.8, 0.012), {0, 0, 0.1}};
   for (const auto& t : run.ticks) {
-    ASSERT_EQ(make_tick_record(step(again.model, again.state, t.input)), make_tick_record(t.output)) << t.tick;
+    ASSERT_EQ(make_tick_record(step(again.model, again.state, t.input)), make_tick_record(t.output))
+        << t.tick;
     ASSERT_EQ(state_hash(again.state), t.state_hash) << t.tick;
   }
-  EXPECT_NEAR(length(run.ticks.back().output.rendered_force_n), 0.64, 0.02) << "it must have pressed";
+  EXPECT_NEAR(length(run.ticks.back().output.rendered_force_n), 0.64, 0.02)
+      << "it must have pressed";
 }
 
 TEST(RealTime, ASilentStylusFadesWithin10Milliseconds) {
@@ -92,7 +101,8 @@ TEST(RealTime, ASilentStylusFadesWithin10Milliseconds) {
   for (const auto& t : run.ticks)
     if ((t.input.flags & k_stylus_fresh) != 0) last_fresh = t.tick;
   for (const auto& t : run.ticks)
-    if (t.tick > last_fresh && zero_at < 0 && length(t.output.rendered_force_n) == 0.0) zero_at = t.tick;
+    if (t.tick > last_fresh && zero_at < 0 && length(t.output.rendered_force_n) == 0.0)
+      zero_at = t.tick;
   ASSERT_GT(zero_at, last_fresh);
   EXPECT_LE(zero_at - last_fresh, 10) << "a tick is a millisecond";
   EXPECT_GT(zero_at - last_fresh, 5) << "the watchdog waits 5 ms, then fades";
@@ -121,7 +131,8 @@ TEST(RealTime, NaNFromTheDeviceEndsWithZeroForceAndTheServoLives) {
   int faults = 0;
   for (const auto& t : run.ticks) faults += (t.input.flags & k_stylus_fault) != 0;
   EXPECT_GE(faults, 50);
-  EXPECT_NEAR(length(run.ticks.back().output.rendered_force_n), 0.64, 0.02) << "a device that recovers is felt again";
+  EXPECT_NEAR(length(run.ticks.back().output.rendered_force_n), 0.64, 0.02)
+      << "a device that recovers is felt again";
 }
 
 TEST(RealTime, WhatTheDeviceThrowsStopsTheServoWithZeroForce) {
@@ -146,9 +157,10 @@ TEST(RealTime, WhatTheDeviceThrowsStopsTheServoWithZeroForce) {
 }
 
 TEST(RealTime, ADeviceThatSleepsIsSeenAsOverrunsAndItsTimeIsMadeUp) {
-  constexpr std::int64_t k_sleeps = 20, k_first = 25, k_apart = 10, k_awake = k_first + k_sleeps * k_apart;
-  // How far the readings lie behind the clock is also how late this machine wakes a thread. The least of many is neither that nor a single sleep:
-  // it grows only by time that was lost for good.
+  constexpr std::int64_t k_sleeps = 20, k_first = 25, k_apart = 10,
+                         k_awake = k_first + k_sleeps * k_apart;
+  // How far the readings lie behind the clock is also how late this machine wakes a thread. The
+  // least of many is neither that nor a single sleep: it grows only by time that was lost for good.
   std::int64_t start_ns = 0, early_ns = INT64_MAX, late_ns = INT64_MAX;
   const FaultyDevice* device = nullptr;
   Live run([&](std::int64_t n, DeviceReading&) {
@@ -162,11 +174,15 @@ TEST(RealTime, ADeviceThatSleepsIsSeenAsOverrunsAndItsTimeIsMadeUp) {
   device = &run.device;
   run.go(900);
   EXPECT_EQ(run.report.ticks, 900);
-  EXPECT_GE(run.report.overruns, 3 * k_sleeps) << "5 ms late: the ticks at 4, 3 and 2 ms were missed";
+  EXPECT_GE(run.report.overruns, 3 * k_sleeps)
+      << "5 ms late: the ticks at 4, 3 and 2 ms were missed";
   EXPECT_GE(run.report.made_up + run.report.skipped_late, 3 * k_sleeps);
-  EXPECT_GE(static_cast<double>(run.report.ticks + run.report.skipped_late), run.device.time_s() * 1e3 - 0.5) << "a period that passed has no tick";
+  EXPECT_GE(static_cast<double>(run.report.ticks + run.report.skipped_late),
+            run.device.time_s() * 1e3 - 0.5)
+      << "a period that passed has no tick";
   ASSERT_GE(run.device.reads, k_awake + 50) << "too few readings after the sleeps to tell";
-  EXPECT_LE(static_cast<double>(late_ns - early_ns) * 1e-6, 20.0) << "ms were lost: 20 sleeps that nobody makes up for would be 80";
+  EXPECT_LE(static_cast<double>(late_ns - early_ns) * 1e-6, 20.0)
+      << "ms were lost: 20 sleeps that nobody makes up for would be 80";
   std::int64_t late = 0;
   for (const auto& t : run.ticks) late += t.late_ns > 1'000'000;
   EXPECT_EQ(late, run.report.overruns) << "the ticks handed on tell the same";
@@ -184,8 +200,10 @@ TEST(RealTime, AHungDeviceLosesItsForceByTheGuard) {
   run.go(400);
   EXPECT_TRUE(cut_while_hung);
   EXPECT_GE(run.report.guard_cuts, 1);
-  std::printf("force cut %.2f ms after it was sent\n", static_cast<double>(run.device.cut_after_ns) * 1e-6);
-  const auto after = std::find_if(run.device.sent.begin(), run.device.sent.end(), [](const auto& s) { return s.read == 200; });
+  std::printf("force cut %.2f ms after it was sent\n",
+              static_cast<double>(run.device.cut_after_ns) * 1e-6);
+  const auto after = std::find_if(run.device.sent.begin(), run.device.sent.end(),
+                                  [](const auto& s) { return s.read == 200; });
   ASSERT_NE(after, run.device.sent.end());
   EXPECT_LE(length(after->force_n), 0.7 + 1e-9) << "it comes back by the slew limit, not by a blow";
 }
@@ -233,21 +251,24 @@ TEST(RealTime, ALongPauseIsMadeUpForInPartAndTheRestIsCounted) {
 TEST(RealTime, WhereStepsTakeLongerThanAPeriodTheDeviceIsStillReadAndTheRestIsCounted) {
   Live run({});
   const double tick_s = 1e-8;  // no computer keeps that
-  run.rig = Rig(make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, hard_model(0.8, 0.012), {0, 0, 0.1}, tick_s);
+  run.rig = Rig(make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, hard_model(0.8, 0.012),
+                {0, 0, 0.1}, tick_s);
   run.options.most_made_up = 1 << 30;  // so that only the time spent on it ends the making up
   run.options.ask_for_fifo = false;    // it would keep a processor busy
   const std::int64_t start = monotonic_ns();
   run.go(30000);
   const double periods = static_cast<double>(monotonic_ns() - start) * 1e-1;
   EXPECT_GE(run.device.reads, 3) << "a loop that made up for everything would read once or twice";
-  EXPECT_LE(run.report.work.quantile_us(0.5), 50000) << "2.5 ms of making up, then a reading; somebody else may have the processor meanwhile";
+  EXPECT_LE(run.report.work.quantile_us(0.5), 50000)
+      << "2.5 ms of making up, then a reading; somebody else may have the processor meanwhile";
   EXPECT_GT(run.report.skipped_late, 1000);
   EXPECT_GT(run.report.overruns, 1000);
   EXPECT_LE(static_cast<double>(run.report.ticks + run.report.skipped_late), periods + 1);
   EXPECT_EQ(static_cast<std::int64_t>(run.ticks.size()), run.report.ticks);
 }
 
-/// SteadyCut cutting at 0.25 mm/s and a press on the simulated Omni, at a tick length, without a clock.
+/// SteadyCut cutting at 0.25 mm/s and a press on the simulated Omni, at a tick length, without a
+/// clock.
 struct SteadyCut {
   double x_mm, cutting_n, press_n, press_x_mm;
 };
@@ -268,7 +289,9 @@ SteadyCut steady(double tick_s) {
     s.x_mm = mean_and_sd(x).mean;
     s.cutting_n = mean_and_sd(f).mean;
   }
-  ClosedLoop loop(Rig(tooth, {shipped_bur("round-1.0")}, hard_model(0.8, 1.79), {0, 0, 0.2}, tick_s), {0, 0, 0.2});
+  ClosedLoop loop(
+      Rig(tooth, {shipped_bur("round-1.0")}, hard_model(0.8, 1.79), {0, 0, 0.2}, tick_s),
+      {0, 0, 0.2});
   loop.omni.quantum_mm = 0;  // which quantum it rests in would be chance
   loop.omni.coulomb_n = 0;
   std::vector<double> f, x;
@@ -285,8 +308,10 @@ SteadyCut steady(double tick_s) {
 
 TEST(RealTime, At4KilohertzThePhysicsIsThatOf1KilohertzWithin1Percent) {
   const SteadyCut slow = steady(0.001), fast = steady(0.00025);
-  std::printf("1 kHz: X %.4f mm, %.4f N cutting, %.4f N and %.4f mm pressing; 4 kHz: %.4f, %.4f, %.4f, %.4f\n", slow.x_mm, slow.cutting_n,
-              slow.press_n, slow.press_x_mm, fast.x_mm, fast.cutting_n, fast.press_n, fast.press_x_mm);
+  std::printf(
+      "1 kHz: X %.4f mm, %.4f N cutting, %.4f N and %.4f mm pressing; 4 kHz: %.4f, %.4f, %.4f, %.4f\n",
+      slow.x_mm, slow.cutting_n, slow.press_n, slow.press_x_mm, fast.x_mm, fast.cutting_n,
+      fast.press_n, fast.press_x_mm);
   EXPECT_NEAR(fast.x_mm / slow.x_mm, 1.0, 0.01);
   EXPECT_NEAR(fast.cutting_n / slow.cutting_n, 1.0, 0.01);
   EXPECT_NEAR(fast.press_n / slow.press_n, 1.0, 0.01);
@@ -295,22 +320,25 @@ TEST(RealTime, At4KilohertzThePhysicsIsThatOf1KilohertzWithin1Percent) {
 
 TEST(RealTime, RunsAt4KilohertzToo) {
   Live run({});
-  run.rig = Rig(make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, hard_model(0.8, 0.012), {0, 0, 0.1}, 0.00025);
+  run.rig = Rig(make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, hard_model(0.8, 0.012),
+                {0, 0, 0.1}, 0.00025);
   const std::int64_t start = monotonic_ns();
   run.go(2000);
   const double seconds = static_cast<double>(monotonic_ns() - start) * 1e-9;
   EXPECT_GE(seconds, 0.499) << "never faster than real time";
   EXPECT_LE(seconds, 0.499 + k_patience_s);
-  // after a late tick the force comes back within milliseconds, and the last of them may stand there
+  // after a late tick the force comes back within milliseconds, and the last of them may stand
+  // there
   std::vector<double> force_n;
-  for (auto tick = run.ticks.begin() + static_cast<std::ptrdiff_t>(run.ticks.size() / 2); tick != run.ticks.end(); ++tick)
+  for (auto tick = run.ticks.begin() + static_cast<std::ptrdiff_t>(run.ticks.size() / 2);
+       tick != run.ticks.end(); ++tick)
     force_n.push_back(length(tick->output.rendered_force_n));
   EXPECT_NEAR(quantile(force_n, 0.5), 0.64, 0.02);
   EXPECT_LE(*std::max_element(force_n.begin(), force_n.end()), 0.66);
 }
 
-/// What `start` does in a process of its own that has room for only so many stacks of 256 MB: 0 it ran, 1 Error with the stream
-/// closed, 2 something else; -1 the process died.
+/// What `start` does in a process of its own that has room for only so many stacks of 256 MB: 0 it
+/// ran, 1 Error with the stream closed, 2 something else; -1 the process died.
 int started_with_room_for(int stacks) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -325,7 +353,8 @@ int started_with_room_for(int stacks) {
     ::pthread_setattr_default_np(&attributes);
     std::size_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
-    const rlim_t most = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + k_stack / 2 + static_cast<std::size_t>(stacks) * k_stack;
+    const rlim_t most = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + k_stack / 2 +
+                        static_cast<std::size_t>(stacks) * k_stack;
     const struct rlimit limit { most, most };
     ::setrlimit(RLIMIT_AS, &limit);
     try {

@@ -1,4 +1,5 @@
-// The force terms inside the servo: state, hash, determinism, and that their absence changes nothing.
+// The force terms inside the servo: state, hash, determinism, and that their absence changes
+// nothing.
 #include <gtest/gtest.h>
 
 #include "engine/tooth/make/make_block.h"
@@ -10,13 +11,15 @@ namespace {
 using namespace testing_engine;
 
 ForceModel all_terms() {
-  return with_terms(hard_model(0.8, 1.79, 0.3), {{"coulomb_friction", {{"fc_n", 0.2}, {"v0_mm_s", 0.5}}},
-                                                 {"series_compliance", {{"ks_n_per_mm", 3.0}}},
-                                                 {"run_out", {{"eccentricity_um", 20.0}, {"amplitude_n", 0.01}}}});
+  return with_terms(hard_model(0.8, 1.79, 0.3),
+                    {{"coulomb_friction", {{"fc_n", 0.2}, {"v0_mm_s", 0.5}}},
+                     {"series_compliance", {{"ks_n_per_mm", 3.0}}},
+                     {"run_out", {{"eccentricity_um", 20.0}, {"amplitude_n", 0.01}}}});
 }
 
 Rig rig_with(const ForceModel& force) {
-  return {make_block({2.4, 2.4, 3.0}, {{"enamel", 0.7}, {"dentin", 0.5}, {"pulp", 0.8}, {"dentin", 1.0}}, 0.05),
+  return {make_block({2.4, 2.4, 3.0},
+                     {{"enamel", 0.7}, {"dentin", 0.5}, {"pulp", 0.8}, {"dentin", 1.0}}, 0.05),
           {shipped_bur("round-1.0")},
           force,
           {0, 0, 0.3}};
@@ -24,7 +27,8 @@ Rig rig_with(const ForceModel& force) {
 
 Vec3 drilling(int i) {
   const double t = i * 1e-3;
-  return {0.5 * std::sin(2.1 * t), 0.4 * std::sin(1.3 * t), 0.2 - 0.3 * t + 0.4 * std::max(0.0, std::sin(1.7 * t))};
+  return {0.5 * std::sin(2.1 * t), 0.4 * std::sin(1.3 * t),
+          0.2 - 0.3 * t + 0.4 * std::max(0.0, std::sin(1.7 * t))};
 }
 
 TEST(ServoTerms, EqualInputsGiveEqualStatesAndACopyGoesOnAlike) {
@@ -40,7 +44,9 @@ TEST(ServoTerms, EqualInputsGiveEqualStatesAndACopyGoesOnAlike) {
       ASSERT_EQ(state_hash(a.state), state_hash(copy)) << i;
     }
   }
-  EXPECT_LT(a.state.tooth.count_leaves()[k_enamel], rig_with(all_terms()).state.tooth.count_leaves()[k_enamel]) << "it must have drilled";
+  EXPECT_LT(a.state.tooth.count_leaves()[k_enamel],
+            rig_with(all_terms()).state.tooth.count_leaves()[k_enamel])
+      << "it must have drilled";
 }
 
 TEST(ServoTerms, EveryPartOfTheirStateIsHashed) {
@@ -59,7 +65,9 @@ TEST(ServoTerms, EveryPartOfTheirStateIsHashed) {
 }
 
 TEST(ServoTerms, AnEmptyListIsTheSameAsNone) {
-  Rig none = rig_with(hard_model(0.8, 1.79, 0.3)), zero = rig_with(with_terms(hard_model(0.8, 1.79, 0.3), {{"run_out", {{"amplitude_n", 0.0}}}}));
+  Rig none = rig_with(hard_model(0.8, 1.79, 0.3)),
+      zero =
+          rig_with(with_terms(hard_model(0.8, 1.79, 0.3), {{"run_out", {{"amplitude_n", 0.0}}}}));
   EXPECT_EQ(none.state.terms.count, 0u);
   for (int i = 0; i < 3000; ++i) {
     const TickOutput a = none.tick(drilling(i), 1.0), b = zero.tick(drilling(i), 1.0);
@@ -72,9 +80,11 @@ TEST(ServoTerms, AnEmptyListIsTheSameAsNone) {
 TEST(ServoTerms, ATermThatGivesNonsenseCountsAsNothingAndIsNoticed) {
   class Broken final : public ForceTerm {
    public:
-    [[nodiscard]] TermForce evaluate(const TermInput& in, TermMemory& memory) const noexcept override {
+    [[nodiscard]] TermForce evaluate(const TermInput& in,
+                                     TermMemory& memory) const noexcept override {
       memory[0] += 1;
-      return memory[0] > 100 && memory[0] < 103 ? TermForce{NAN, INFINITY} : TermForce{0.0, in.speed_mm_s > 0 ? 0.1 : 0.0};
+      return memory[0] > 100 && memory[0] < 103 ? TermForce{NAN, INFINITY}
+                                                : TermForce{0.0, in.speed_mm_s > 0 ? 0.1 : 0.0};
     }
   };
   ForceModel force = hard_model(0.8, 0.012);
@@ -83,7 +93,8 @@ TEST(ServoTerms, ATermThatGivesNonsenseCountsAsNothingAndIsNoticed) {
   int noticed = 0;
   for (int i = 0; i < 1000; ++i) {
     const TickOutput out = rig.tick(drilling(i), 0);
-    ASSERT_TRUE(is_finite(out.rendered_force_n) && std::isfinite(out.model_force_n) && is_finite(out.drag_n));
+    ASSERT_TRUE(is_finite(out.rendered_force_n) && std::isfinite(out.model_force_n) &&
+                is_finite(out.drag_n));
     noticed += (out.notices & k_notice_not_finite) != 0;
   }
   EXPECT_GE(noticed, 1);

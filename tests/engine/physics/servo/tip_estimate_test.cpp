@@ -14,7 +14,9 @@ constexpr double k_quantum_mm = 0.055;
 
 double encoded(double mm) { return std::floor(mm / k_quantum_mm + 0.5) * k_quantum_mm; }
 std::array<std::int32_t, 3> reading(Vec3 mm) {
-  return make_tick_input({{encoded(mm.x), encoded(mm.y), encoded(mm.z)}, {}}, 0, k_stylus_fresh, 0, {}).tip_nm;
+  return make_tick_input({{encoded(mm.x), encoded(mm.y), encoded(mm.z)}, {}}, 0, k_stylus_fresh, 0,
+                         {})
+      .tip_nm;
 }
 
 /// A tip that is read through the encoder.
@@ -27,14 +29,17 @@ struct Read {
     update_tip_estimate(state, reading(mm), ++tick, k_quantum_mm, dt_s);
     return state.tip_mm;
   }
-  [[nodiscard]] double fastest(Vec3 direction) const { return fastest_mm_s(state, direction, tick, k_quantum_mm, dt_s); }
+  [[nodiscard]] double fastest(Vec3 direction) const {
+    return fastest_mm_s(state, direction, tick, k_quantum_mm, dt_s);
+  }
 };
 
 TEST(TipEstimate, IsTheTruePlaceAtConstantSpeed) {
   for (const double dt : {0.001, 0.00025})
     for (const double v : {0.02, 0.1, 0.25, 1.0, 5.0, -0.25}) {
       Read read{dt};
-      const double settled_s = 3 * k_quantum_mm / std::fabs(v), jitter_mm = 2 * std::fabs(v) * dt;  // a step is seen up to a tick late
+      const double settled_s = 3 * k_quantum_mm / std::fabs(v),
+                   jitter_mm = 2 * std::fabs(v) * dt;  // a step is seen up to a tick late
       double worst = 0;
       for (double t = dt; t < 4 * settled_s; t += dt) {
         const double x = v * t, seen = read.at({x, 0, 0}).x;
@@ -61,7 +66,8 @@ TEST(TipEstimate, StaysWithinHalfAQuantumOfTheReadingAndAQuantumOfTheTruth) {
 
 TEST(TipEstimate, AFlickerOverABorderDoesNotMoveIt) {
   Read read;
-  for (int i = 0; i < 20; ++i) (void)read.at({0.02 + 0.0005 * i, 0, 0});  // over the border at 0.0275
+  for (int i = 0; i < 20; ++i)
+    (void)read.at({0.02 + 0.0005 * i, 0, 0});  // over the border at 0.0275
   const double before = read.at({0.026, 0, 0}).x;
   EXPECT_NEAR(before, 0.0275, 1e-6);
   for (int i = 0; i < 200; ++i) ASSERT_NEAR(read.at({i % 3 ? 0.027 : 0.028, 0, 0}).x, before, 1e-6);
@@ -71,13 +77,15 @@ TEST(TipEstimate, IsTheReadingItselfWithoutAQuantum) {
   Random random(drawn_seed("TipEstimate.IsTheReadingItselfWithoutAQuantum"));
   TipEstimate state = make_tip_estimate({});
   for (int i = 1; i < 2000; ++i) {
-    const TickInput in =
-        make_tick_input({{random.uniform(-9, 9), random.uniform(-9, 9), i % 2 ? 1.5 : random.uniform(-9, 9)}, {}}, 0, k_stylus_fresh, 0, {});
+    const TickInput in = make_tick_input(
+        {{random.uniform(-9, 9), random.uniform(-9, 9), i % 2 ? 1.5 : random.uniform(-9, 9)}, {}},
+        0, k_stylus_fresh, 0, {});
     update_tip_estimate(state, in.tip_nm, i, 0.0, 0.001);
     const Vec3 tip = in.pose().tip_mm;
     ASSERT_TRUE(state.tip_mm.x == tip.x && state.tip_mm.y == tip.y && state.tip_mm.z == tip.z);
   }
-  EXPECT_TRUE(std::isinf(fastest_mm_s(state, {0, 0, 1}, 2000, 0.0, 0.001))) << "an exact device bounds nothing";
+  EXPECT_TRUE(std::isinf(fastest_mm_s(state, {0, 0, 1}, 2000, 0.0, 0.001)))
+      << "an exact device bounds nothing";
 }
 
 TEST(TipEstimate, TheFastestSpeedLeavesConstantSpeedsAloneAndFallsWhenAStepIsOverdue) {
@@ -106,7 +114,8 @@ TEST(TipEstimate, TheFastestSpeedLeavesConstantSpeedsAloneAndFallsWhenAStepIsOve
 
 /// A tooth pressed straight down, its surface at z = 0.
 Rig pressed(double quantum_mm, double dt_s) {
-  Rig rig(make_block({6, 6, 6}, {{"dentin", 6.0}}, 0.05), {shipped_bur("round-1.0")}, hard_model(0.8, 2 * std::sqrt(0.8)), {0, 0, 0.1}, dt_s);
+  Rig rig(make_block({6, 6, 6}, {{"dentin", 6.0}}, 0.05), {shipped_bur("round-1.0")},
+          hard_model(0.8, 2 * std::sqrt(0.8)), {0, 0, 0.1}, dt_s);
   rig.model.config.position_quantum_mm = quantum_mm;
   rig.model.config.limits = {.peak_n = 100, .continuous_n = 100, .slew_n_per_s = 1e5};
   return rig;
@@ -126,8 +135,9 @@ TEST(TipEstimate, ThroughAnEncoderARampIsRenderedWithin2PercentOfTheLawAndWithou
       }
       last = f;
     }
-    std::printf("encoder of 0.055 mm, 0.25 mm/s, dt %g: off the Voigt law by at most %.4f; largest change in a tick %.5f N\n", dt, worst,
-                largest_change);
+    std::printf(
+        "encoder of 0.055 mm, 0.25 mm/s, dt %g: off the Voigt law by at most %.4f; largest change in a tick %.5f N\n",
+        dt, worst, largest_change);
     EXPECT_LE(worst, 0.02);
     EXPECT_LE(largest_change, 0.003) << "a step of the encoder alone would be 0.0825 N";
   }
@@ -138,7 +148,8 @@ TEST(TipEstimate, AtRestTheForceIsTheSpringWithinASecond) {
   (void)rig.travel({0, 0, 0.11}, {0, 0, -1.1}, 5.0);  // a multiple of the quantum
   TickOutput out;
   for (int i = 0; i < 1000; ++i) out = rig.tick({0, 0, -1.1}, 0);
-  EXPECT_NEAR(out.rendered_force_n.z / (0.8 * out.penetration_mm), 1.0, 0.01) << "with c/Kvc = 2.6 s alone it would be 1.6";
+  EXPECT_NEAR(out.rendered_force_n.z / (0.8 * out.penetration_mm), 1.0, 0.01)
+      << "with c/Kvc = 2.6 s alone it would be 1.6";
   EXPECT_NEAR(out.penetration_mm, 1.1, 0.5 * k_quantum_mm + 1e-3);
 }
 

@@ -49,9 +49,11 @@ TEST(LandmarksFile, WhatIsAnythingElseIsRefusedByItsKey) {
   const auto good = nlohmann::json::parse(landmarks_text(kept_landmarks()));
   using testing_basics::code_of, testing_basics::tells;
   const auto refused = [](const nlohmann::json& text) {
-    return testing_basics::thrown_by([&] { static_cast<void>(parse_landmarks(text.dump(), "kept")); });
+    return testing_basics::thrown_by(
+        [&] { static_cast<void>(parse_landmarks(text.dump(), "kept")); });
   };
-  const auto expect_refused = [&](const nlohmann::json& text, FileError code, const std::string& key) {
+  const auto expect_refused = [&](const nlohmann::json& text, FileError code,
+                                  const std::string& key) {
     EXPECT_EQ(code_of(refused(text)), code) << key;
     EXPECT_TRUE(tells(refused(text), key)) << key;
   };
@@ -59,7 +61,8 @@ TEST(LandmarksFile, WhatIsAnythingElseIsRefusedByItsKey) {
   for (const auto& [key, value] : good.items()) {
     auto less = good;
     less.erase(key);
-    if (!key.starts_with("chamber_") && !key.ends_with("lowest_mm") && !key.ends_with("pit_mm")) expect_refused(less, FileError::missing, key);
+    if (!key.starts_with("chamber_") && !key.ends_with("lowest_mm") && !key.ends_with("pit_mm"))
+      expect_refused(less, FileError::missing, key);
     auto other = good;
     other[key] = true;
     expect_refused(other, FileError::wrong_type, key);
@@ -72,7 +75,8 @@ TEST(LandmarksFile, WhatIsAnythingElseIsRefusedByItsKey) {
   auto cusp = good;
   cusp["cusps"][0].erase("tip_mm");
   expect_refused(cusp, FileError::missing, "cusps[0].tip_mm");
-  for (const char* text : {"", "[]", "7", "{", "{\"neck_mm\":1e999}"}) EXPECT_THROW(static_cast<void>(parse_landmarks(text, "kept")), Error) << text;
+  for (const char* text : {"", "[]", "7", "{", "{\"neck_mm\":1e999}"})
+    EXPECT_THROW(static_cast<void>(parse_landmarks(text, "kept")), Error) << text;
 }
 
 }  // namespace

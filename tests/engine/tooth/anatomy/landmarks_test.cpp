@@ -43,7 +43,8 @@ double surface_z(const Field& field, double x, double y) {
   double high = 8, low = 8;
   while (low > -6 && field(Vec3{x, y, low}) > 0) low -= 0.1;
   high = low + 0.1;
-  for (int i = 0; i < 30; ++i) (field(Vec3{x, y, 0.5 * (low + high)}) > 0 ? high : low) = 0.5 * (low + high);
+  for (int i = 0; i < 30; ++i)
+    (field(Vec3{x, y, 0.5 * (low + high)}) > 0 ? high : low) = 0.5 * (low + high);
   return low;
 }
 
@@ -62,8 +63,10 @@ TEST(Landmarks, CuspsOfTheMolarStandWhereItsFormulaIsHighest) {
   const auto field = [&](Vec3 p) { return shape.outside(p); };
   const auto& l = molar_landmarks();
   ASSERT_EQ(l.cusps.size(), 5u);
-  const std::array<const char*, 5> names{"mesiobuccal", "distobuccal", "distal", "mesiolingual", "distolingual"};
-  const std::array<Vec3, 5> near{{{2.4, 2.6, 0}, {-0.95, 2.95, 0}, {-3.7, 1.75, 0}, {2.4, -2.6, 0}, {-2.0, -2.7, 0}}};
+  const std::array<const char*, 5> names{"mesiobuccal", "distobuccal", "distal", "mesiolingual",
+                                         "distolingual"};
+  const std::array<Vec3, 5> near{
+      {{2.4, 2.6, 0}, {-0.95, 2.95, 0}, {-3.7, 1.75, 0}, {2.4, -2.6, 0}, {-2.0, -2.7, 0}}};
   double worst = 0;
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_EQ(l.cusps[i].name, names[i]);
@@ -80,11 +83,13 @@ TEST(Landmarks, CuspsOfTheMolarStandWhereItsFormulaIsHighest) {
 TEST(Landmarks, FissureAndPitsOfTheMolarFollowItsFormula) {
   const auto& l = molar_landmarks();
   ASSERT_TRUE(l.mesial_pit_mm && l.central_pit_mm && l.distal_pit_mm);
-  // the corners of the main fissure in make_molar.cpp; the central pit lies where the arms leave it, between 0.2 and 0.7
+  // the corners of the main fissure in make_molar.cpp; the central pit lies where the arms leave
+  // it, between 0.2 and 0.7
   EXPECT_LT(flat(*l.mesial_pit_mm, {3.1, 0.05, 0}), 0.35);
   EXPECT_LT(flat(*l.distal_pit_mm, {-3.3, -0.3, 0}), 0.35);
   EXPECT_LT(flat(*l.central_pit_mm, {0.45, 0.1, 0}), 0.4);
-  const std::array<std::array<double, 4>, 3> parts{{{3.1, 0.05, 0.7, 0.2}, {0.7, 0.2, -1.2, -0.25}, {-1.2, -0.25, -3.3, -0.3}}};
+  const std::array<std::array<double, 4>, 3> parts{
+      {{3.1, 0.05, 0.7, 0.2}, {0.7, 0.2, -1.2, -0.25}, {-1.2, -0.25, -3.3, -0.3}}};
   double worst = 0;
   for (const Vec3 p : l.central_fissure_mm) {
     double d = 1e9;
@@ -94,8 +99,10 @@ TEST(Landmarks, FissureAndPitsOfTheMolarFollowItsFormula) {
   EXPECT_LT(worst, 0.3);
   EXPECT_GT(l.central_fissure_mm.size(), 20u);
   EXPECT_EQ(l.fissure_branches_mm.size(), 3u) << "two buccal grooves, one lingual";
-  std::cout << "molar: pits " << flat(*l.mesial_pit_mm, {3.1, 0.05, 0}) << ", " << flat(*l.central_pit_mm, {0.45, 0.1, 0}) << ", "
-            << flat(*l.distal_pit_mm, {-3.3, -0.3, 0}) << " mm, fissure within " << worst << " mm of the formula\n";
+  std::cout << "molar: pits " << flat(*l.mesial_pit_mm, {3.1, 0.05, 0}) << ", "
+            << flat(*l.central_pit_mm, {0.45, 0.1, 0}) << ", "
+            << flat(*l.distal_pit_mm, {-3.3, -0.3, 0}) << " mm, fissure within " << worst
+            << " mm of the formula\n";
 }
 
 TEST(Landmarks, RidgesOfTheMolarAreItsRidges) {
@@ -104,9 +111,11 @@ TEST(Landmarks, RidgesOfTheMolarAreItsRidges) {
   const Molar shape(molar_shape());
   const auto field = [&](Vec3 p) { return shape.outside(p); };
   // the crest: the highest way out of the pits; along y = 0 the formula's own profile tells it
-  for (const auto& [ridge, from, to] : {std::tuple{l.mesial_ridge, 3.4, 5.2}, std::tuple{l.distal_ridge, -5.2, -3.4}}) {
+  for (const auto& [ridge, from, to] :
+       {std::tuple{l.mesial_ridge, 3.4, 5.2}, std::tuple{l.distal_ridge, -5.2, -3.4}}) {
     double best = -1e9;
-    for (double x = from; x <= to; x += 0.02) best = std::max(best, surface_z(field, x, ridge.lowest_mm->y));
+    for (double x = from; x <= to; x += 0.02)
+      best = std::max(best, surface_z(field, x, ridge.lowest_mm->y));
     EXPECT_NEAR(ridge.lowest_mm->z, best, 0.08);
     EXPECT_TRUE(ridge.lowest_mm->x > from && ridge.lowest_mm->x < to) << ridge.lowest_mm->x;
     EXPECT_GT(ridge.crest_mm.front().y, 1.0) << "from buccal";
@@ -141,12 +150,17 @@ TEST(Landmarks, PulpOfTheMolarIsFound) {
   EXPECT_NEAR(l.chamber_floor_mm->z, shape.chamber_roof_mm - shape.chamber_height_mm, 0.15);
   ASSERT_EQ(l.canal_mouths.size(), 3u);
   for (const Vec3 at : {Vec3{1.7, 1.45, 0}, Vec3{1.7, -1.4, 0}, Vec3{-1.9, 0, 0}})
-    EXPECT_TRUE(std::any_of(l.canal_mouths.begin(), l.canal_mouths.end(), [&](const CanalOpening& c) { return flat(c.at_mm, at) < 0.2; }))
+    EXPECT_TRUE(std::any_of(l.canal_mouths.begin(), l.canal_mouths.end(),
+                            [&](const CanalOpening& c) { return flat(c.at_mm, at) < 0.2; }))
         << at.x << ' ' << at.y;
-  // horns as make_molar.cpp puts them: under the cusps, at 0.74 of x and 0.60 of y, 0.13 above the cone's end
-  for (const Vec3 c : {Vec3{2.55, 2.85, 3.25}, Vec3{-0.95, 3.05, 3.05}, Vec3{2.5, -2.75, 3.5}, Vec3{-2.0, -2.8, 3.35}}) {
+  // horns as make_molar.cpp puts them: under the cusps, at 0.74 of x and 0.60 of y, 0.13 above the
+  // cone's end
+  for (const Vec3 c : {Vec3{2.55, 2.85, 3.25}, Vec3{-0.95, 3.05, 3.05}, Vec3{2.5, -2.75, 3.5},
+                       Vec3{-2.0, -2.8, 3.35}}) {
     const Vec3 tip{c.x * 0.74, c.y * 0.60, shape.chamber_roof_mm + 1.15 + 0.5 * (c.z - 3.0) + 0.13};
-    EXPECT_TRUE(std::any_of(l.pulp_horns_mm.begin(), l.pulp_horns_mm.end(), [&](Vec3 h) { return length(h - tip) < 0.3; })) << tip.x << ' ' << tip.y;
+    EXPECT_TRUE(std::any_of(l.pulp_horns_mm.begin(), l.pulp_horns_mm.end(),
+                            [&](Vec3 h) { return length(h - tip) < 0.3; }))
+        << tip.x << ' ' << tip.y;
   }
   ASSERT_EQ(l.apices_mm.size(), 2u);
   for (const Vec3 a : l.apices_mm) EXPECT_NEAR(a.z, -16.4, 0.15);
@@ -156,7 +170,8 @@ TEST(Landmarks, FourAndTwoCanalsAreCounted) {
   for (const int canals : {2, 4}) {
     MolarShape shape = molar_shape();
     shape.canals = canals;
-    EXPECT_EQ(find_landmarks(make_molar(shape)).canal_mouths.size(), static_cast<std::size_t>(canals));
+    EXPECT_EQ(find_landmarks(make_molar(shape)).canal_mouths.size(),
+              static_cast<std::size_t>(canals));
   }
 }
 
@@ -176,7 +191,8 @@ TEST(Landmarks, PremolarHasTwoCuspsOneFissureAndNoFloor) {
   EXPECT_LT(flat(*l.mesial_pit_mm, {1.5, 0.05, 0}), 0.3);
   EXPECT_LT(flat(*l.distal_pit_mm, {-1.45, 0.05, 0}), 0.3);
   for (const Vec3 p : l.central_fissure_mm)
-    EXPECT_LT(segment_distance(p.x, p.y, 1.5, 0.05, -1.45, 0.05), 0.3) << "a class I is to lie within 0.3 mm of it";
+    EXPECT_LT(segment_distance(p.x, p.y, 1.5, 0.05, -1.45, 0.05), 0.3)
+        << "a class I is to lie within 0.3 mm of it";
   EXPECT_FALSE(l.central_pit_mm);
   EXPECT_FALSE(l.chamber_floor_mm) << "one canal";
   EXPECT_EQ(l.canal_mouths.size(), 1u);
@@ -189,7 +205,8 @@ TEST(Landmarks, IncisorHasAnEdgeAndNoTable) {
   shape.leaf_mm = k_leaf_mm;
   const Landmarks l = find_landmarks(make_incisor(shape));
   EXPECT_EQ(l.tooth_class.kind, ToothClass::incisor) << l.tooth_class.reason;
-  EXPECT_TRUE(l.cusps.empty() && l.occlusal_table_mm.empty() && l.central_fissure_mm.empty() && !l.mesial_pit_mm);
+  EXPECT_TRUE(l.cusps.empty() && l.occlusal_table_mm.empty() && l.central_fissure_mm.empty() &&
+              !l.mesial_pit_mm);
   ASSERT_GT(l.incisal_edge_mm.size(), 15u);
   EXPECT_GT(l.incisal_edge_mm.front().x, 3.0);
   EXPECT_LT(l.incisal_edge_mm.back().x, -3.0);
@@ -206,10 +223,12 @@ TEST(Landmarks, IncisorHasAnEdgeAndNoTable) {
 
 TEST(Landmarks, BlocksAndTeethWithoutEnamelHaveNone) {
   const auto is_bare = [](const Landmarks& l) {
-    return named_points(l).empty() && l.neck_mm.empty() && l.height_of_contour_mm.empty() && l.occlusal_table_mm.empty() &&
-           l.tooth_class.kind == ToothClass::unknown && !l.notes.empty();
+    return named_points(l).empty() && l.neck_mm.empty() && l.height_of_contour_mm.empty() &&
+           l.occlusal_table_mm.empty() && l.tooth_class.kind == ToothClass::unknown &&
+           !l.notes.empty();
   };
-  EXPECT_TRUE(is_bare(find_landmarks(make_block({10, 10, 6}, {{"enamel", 3.0}, {"dentin", 3.0}}, 0.2))));
+  EXPECT_TRUE(
+      is_bare(find_landmarks(make_block({10, 10, 6}, {{"enamel", 3.0}, {"dentin", 3.0}}, 0.2))));
   EXPECT_TRUE(is_bare(find_landmarks(make_cube(5, "dentin", 0.2))));
   EXPECT_TRUE(is_bare(find_landmarks(make_cube(1, "enamel", 0.1))));
   EXPECT_TRUE(is_bare(find_landmarks(Tooth{})));
@@ -217,14 +236,16 @@ TEST(Landmarks, BlocksAndTeethWithoutEnamelHaveNone) {
 
 TEST(Landmarks, OfTheShippedMolarAreTheSameEveryTime) {
   const Tooth tooth = load_tooth_file(testing_basics::data_path("teeth/lower_molar.cvt"));
-  const auto once = named_points(find_landmarks(tooth)), again = named_points(find_landmarks(tooth));
+  const auto once = named_points(find_landmarks(tooth)),
+             again = named_points(find_landmarks(tooth));
   EXPECT_EQ(once, again);
   EXPECT_EQ(once.size(), 22u);
 }
 
 TEST(PlacedLandmarks, TheFissureEndsWhereAPersonPutsItsPits) {
   Landmarks l;
-  for (int i = 0; i <= 10; ++i) l.central_fissure_mm.push_back({3.0 - 0.6 * i, 0, 0});  // from mesial, x = 3, to distal, x = -3
+  for (int i = 0; i <= 10; ++i)
+    l.central_fissure_mm.push_back({3.0 - 0.6 * i, 0, 0});  // from mesial, x = 3, to distal, x = -3
   Landmarks beyond = l, aside = l;
   place_landmarks({{"mesial_pit", {1.7, 0.3, 0}}, {"distal_pit", {-2.5, 0, 0}}}, l);
   ASSERT_EQ(l.central_fissure_mm.size(), 8u);
@@ -240,8 +261,9 @@ TEST(PlacedLandmarks, TheFissureEndsWhereAPersonPutsItsPits) {
 
 TEST(PlacedLandmarks, StandInPlaceOfWhatWasFound) {
   Tooth tooth = molar();
-  tooth.placed_landmarks = {{"central_pit", {0.1, 0.2, 1.0}}, {"cusp_6", {1, 2, 3}}, {"mesial_pit", {3, 0, 2}},
-                            {"cusp_2", {-1, 3, 3}},           {"cusp_9", {0, 0, 0}}, {"nose", {0, 0, 0}}};
+  tooth.placed_landmarks = {
+      {"central_pit", {0.1, 0.2, 1.0}}, {"cusp_6", {1, 2, 3}}, {"mesial_pit", {3, 0, 2}},
+      {"cusp_2", {-1, 3, 3}},           {"cusp_9", {0, 0, 0}}, {"nose", {0, 0, 0}}};
   const Landmarks l = find_landmarks(tooth);
   EXPECT_EQ(*l.central_pit_mm, (Vec3{0.1, 0.2, 1.0}));
   EXPECT_EQ(*l.mesial_pit_mm, (Vec3{3, 0, 2}));
@@ -251,9 +273,12 @@ TEST(PlacedLandmarks, StandInPlaceOfWhatWasFound) {
   EXPECT_EQ(l.cusps[1].tip_mm, (Vec3{-1, 3, 3}));
   EXPECT_EQ(l.cusps[1].name, "distobuccal");
   EXPECT_EQ(l.moved.size(), 4u);
-  EXPECT_EQ(l.notes.size(), molar_landmarks().notes.size() + 2) << "two that could not be put are named";
+  EXPECT_EQ(l.notes.size(), molar_landmarks().notes.size() + 2)
+      << "two that could not be put are named";
   for (const auto& [name, at] : named_points(l)) EXPECT_TRUE(is_landmark_name(name)) << name;
-  for (const char* bad : {"", "cusp", "cusp_0", "cusp_17", "cusp_1x", "cusp_01", "nose", "central_pit_1"}) EXPECT_FALSE(is_landmark_name(bad)) << bad;
+  for (const char* bad :
+       {"", "cusp", "cusp_0", "cusp_17", "cusp_1x", "cusp_01", "nose", "central_pit_1"})
+    EXPECT_FALSE(is_landmark_name(bad)) << bad;
 }
 
 }  // namespace

@@ -21,9 +21,11 @@ using namespace testing_import;
 
 /// A cap of enamel (z 0..2) on a block of dentin (z -6..0) that holds a pulp of 1 x 1 x 3 mm.
 struct Blocks {
-  TriangleMesh enamel = box({-3, -2.5, 0}, {3, 2.5, 2}), dentin = box({-3, -2.5, -6}, {3, 2.5, 0}), pulp = box({-0.5, -0.5, -4}, {0.5, 0.5, -1});
+  TriangleMesh enamel = box({-3, -2.5, 0}, {3, 2.5, 2}), dentin = box({-3, -2.5, -6}, {3, 2.5, 0}),
+               pulp = box({-0.5, -0.5, -4}, {0.5, 0.5, -1});
   [[nodiscard]] MeshPaths write(const fs::path& f) const {
-    return {write_obj(f / "e.obj", enamel), write_obj(f / "d.obj", dentin), write_ascii_stl(f / "p.stl", pulp)};
+    return {write_obj(f / "e.obj", enamel), write_obj(f / "d.obj", dentin),
+            write_ascii_stl(f / "p.stl", pulp)};
   }
 };
 
@@ -39,7 +41,9 @@ TEST(ImportMeshes, BoxesGiveTheirVolumesAndNoTissueIsLostAtTheJunction) {
   EXPECT_NEAR(volume_mm3(done.tooth, k_enamel), 60, 0.6);
   EXPECT_NEAR(volume_mm3(done.tooth, k_pulp), 3, 0.06);
   EXPECT_NEAR(volume_mm3(done.tooth, k_dentin), 177, 1.77);
-  EXPECT_NEAR(volume_mm3(done.tooth, k_enamel) + volume_mm3(done.tooth, k_dentin) + volume_mm3(done.tooth, k_pulp), 240, 0.5);
+  EXPECT_NEAR(volume_mm3(done.tooth, k_enamel) + volume_mm3(done.tooth, k_dentin) +
+                  volume_mm3(done.tooth, k_pulp),
+              240, 0.5);
   // The frame: enamel upwards, origin at the middle of the enamel's box (z 1 of the file).
   EXPECT_EQ(done.tooth.octree.tissue_at({0, 0, 0.9}), k_enamel);
   EXPECT_EQ(done.tooth.octree.tissue_at({0, 0, -1.5}), k_dentin);
@@ -57,20 +61,23 @@ TEST(ImportMeshes, DistancesAreExactOnFacesAndBlindToTheJunction) {
       ASSERT_NEAR(done.tooth.octree.sample({u, u, -1 + off}, cursor).distance_mm, -0.14, 1e-6);
     }
     for (const double off : {-0.06, 0.0, 0.04})
-      ASSERT_NEAR(done.tooth.octree.sample({0.5 + off, u / 8, -3.5 + u / 4}, cursor).distance_mm, -off, 0.0012);
+      ASSERT_NEAR(done.tooth.octree.sample({0.5 + off, u / 8, -3.5 + u / 4}, cursor).distance_mm,
+                  -off, 0.0012);
   }
 }
 
 TEST(ImportMeshes, GapsAndOverlapsFollowTheRule) {
   Blocks gap;
-  gap.enamel = box({-3, -2.5, 0.15}, {3, 2.5, 2});  // 1.5 leaves of nothing between enamel and dentin
+  gap.enamel =
+      box({-3, -2.5, 0.15}, {3, 2.5, 2});  // 1.5 leaves of nothing between enamel and dentin
   const auto closed = import_meshes(gap.write(fresh_folder()), options(0.1));
   double sum = 0;
   for (const std::uint8_t id : {k_enamel, k_dentin, k_pulp}) sum += volume_mm3(closed.tooth, id);
   EXPECT_NEAR(sum, 240, 1.2);
   EXPECT_GT(closed.gap_leaves, 0u);
   Octree::Cursor cursor;
-  EXPECT_NEAR(closed.tooth.octree.sample({0.4, 0.3, -1.0}, cursor).distance_mm, -0.2, 1e-6) << "no seam to feel";
+  EXPECT_NEAR(closed.tooth.octree.sample({0.4, 0.3, -1.0}, cursor).distance_mm, -0.2, 1e-6)
+      << "no seam to feel";
 
   Blocks overlap;
   overlap.enamel = box({-3, -2.5, -0.2}, {3, 2.5, 2});
@@ -93,8 +100,10 @@ TEST(ImportMeshes, NestedBallsGiveShellsOfAnalyticVolume) {
   o.frame.occlusal_axis = Vec3{0, 0, 1};
   const auto done = import_meshes(paths, o);
   const auto ball_mm3 = [](double r) { return 4.0 / 3.0 * M_PI * r * r * r; };
-  EXPECT_NEAR(volume_mm3(done.tooth, k_enamel), ball_mm3(3) - ball_mm3(2.5), 0.01 * (ball_mm3(3) - ball_mm3(2.5)));
-  EXPECT_NEAR(volume_mm3(done.tooth, k_dentin), ball_mm3(2.5) - ball_mm3(1), 0.01 * (ball_mm3(2.5) - ball_mm3(1)));
+  EXPECT_NEAR(volume_mm3(done.tooth, k_enamel), ball_mm3(3) - ball_mm3(2.5),
+              0.01 * (ball_mm3(3) - ball_mm3(2.5)));
+  EXPECT_NEAR(volume_mm3(done.tooth, k_dentin), ball_mm3(2.5) - ball_mm3(1),
+              0.01 * (ball_mm3(2.5) - ball_mm3(1)));
   EXPECT_NEAR(volume_mm3(done.tooth, k_pulp), ball_mm3(1), 0.02 * ball_mm3(1));
 }
 
@@ -127,15 +136,19 @@ TEST(ImportMeshes, ACornerThatIsNoNumberIsNamedAndNotTakenForAHole) {
   };
   expect_malformed("binary.stl", 3);
   for (const char* value : {"nan", "inf", "-NaN", "x", ""}) {
-    write_text_file(name("text.stl"), "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 " + std::string(value) +
-                                          "\nendloop\nendfacet\nendsolid t\n");
+    write_text_file(
+        name("text.stl"),
+        "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 " +
+            std::string(value) + "\nendloop\nendfacet\nendsolid t\n");
     expect_malformed("text.stl", 6);
   }
 }
 
 TEST(ImportMeshes, ExchangedLayersAreAnError) {
   const auto right = Blocks().write(fresh_folder());
-  const auto swapped = thrown_by([&] { (void)import_meshes({right.dentin, right.enamel, right.pulp}, options(0.2)); });
+  const auto swapped = thrown_by([&] {
+    (void)import_meshes({right.dentin, right.enamel, right.pulp}, options(0.2));
+  });
   EXPECT_EQ(code_of(swapped), ImportError::layers_exchanged);
   EXPECT_NE(place_of(swapped).find("e.obj"), std::string::npos);
   EXPECT_THROW((void)import_meshes({right.enamel, right.pulp, right.dentin}, options(0.2)), Error);
@@ -159,9 +172,13 @@ TEST(ImportMeshes, UnusableFilesAreErrors) {
   const auto folder = fresh_folder();
   const auto paths = Blocks().write(folder);
   std::ofstream(folder / "text.stl") << "this is no mesh";
-  std::ofstream(folder / "nan.obj") << "v nan 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  std::ofstream(folder / "nan.obj")
+      << "v nan 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
   for (const auto& bad : {folder / "missing.stl", folder / "text.stl", folder / "nan.obj"})
-    EXPECT_EQ(place_of(thrown_by([&] { (void)import_meshes({bad.string(), paths.dentin, paths.pulp}, options(0.2)); })), bad.string());
+    EXPECT_EQ(place_of(thrown_by([&] {
+                (void)import_meshes({bad.string(), paths.dentin, paths.pulp}, options(0.2));
+              })),
+              bad.string());
   EXPECT_EQ(code_of([&] { (void)import_meshes(paths, options(0.001)); }), FileError::too_large);
   MeshImportOptions parallel = options(0.2);
   parallel.frame.mesial_axis = Vec3{0, 0, 1};
@@ -202,7 +219,9 @@ TEST(ImportMeshes, TheMolarSurvivesExportAndImport) {
   shape.leaf_mm = 0.1;
   const Tooth molar = make_molar(shape);
   MeshPaths paths;
-  for (const auto& [name, path] : {std::pair{"enamel", &paths.enamel}, std::pair{"dentin", &paths.dentin}, std::pair{"pulp", &paths.pulp}}) {
+  for (const auto& [name, path] :
+       {std::pair{"enamel", &paths.enamel}, std::pair{"dentin", &paths.dentin},
+        std::pair{"pulp", &paths.pulp}}) {
     *path = (folder / (std::string(name) + ".ply")).string();
     write_mesh_file(surface_mesh(molar, name), *path);
   }

@@ -16,8 +16,9 @@ using testing_tooth::volume_mm3;
 
 using namespace testing_import;
 
-/// A ball-headed pillar: crown = ball of radius 4 mm, root = cylinder of radius 2.6 mm downwards, broken off flat; pulp =
-/// ball of radius 1.5 mm with a canal of radius 0.4 mm that is open at the broken end; enamel 1.2 mm thick around the crown.
+/// A ball-headed pillar: crown = ball of radius 4 mm, root = cylinder of radius 2.6 mm downwards,
+/// broken off flat; pulp = ball of radius 1.5 mm with a canal of radius 0.4 mm that is open at the
+/// broken end; enamel 1.2 mm thick around the crown.
 std::uint8_t tissue_of_phantom(Vec3 p) {
   const double r = length(p), across = std::sqrt(p.x * p.x + p.y * p.y);
   const bool root = across < 2.6 && p.z < 0 && p.z > -8;
@@ -38,19 +39,26 @@ Voxels phantom(const std::function<double(std::uint8_t)>& gray, bool partial_vol
         double sum = 0;
         const int n = partial_volume ? 3 : 1;
         for (int i = 0; i < n * n * n; ++i) {
-          const Vec3 sub{(i % n + 0.5) / n - 0.5, (i / n % n + 0.5) / n - 0.5, (i / n / n + 0.5) / n - 0.5};
+          const Vec3 sub{(i % n + 0.5) / n - 0.5, (i / n % n + 0.5) / n - 0.5,
+                         (i / n / n + 0.5) / n - 0.5};
           // partial volumes reach over 1.6 voxels, as a scanner blurs them
-          const Vec3 at = Vec3{double(x), double(y), double(z)} + sub * (partial_volume ? 1.6 : 1.0);
+          const Vec3 at =
+              Vec3{double(x), double(y), double(z)} + sub * (partial_volume ? 1.6 : 1.0);
           sum += gray(tissue_of_phantom(Vec3{at.x - 24.5, at.y - 24.5, at.z - 45} * k_spacing_mm));
         }
-        v.gray[v.index(x, y, z)] = static_cast<std::uint8_t>(std::lround(std::clamp(sum / (n * n * n) + noise * random.normal(), 0.0, 255.0)));
+        v.gray[v.index(x, y, z)] = static_cast<std::uint8_t>(
+            std::lround(std::clamp(sum / (n * n * n) + noise * random.normal(), 0.0, 255.0)));
       }
   return v;
 }
 
 /// Dry tooth: the pulp is darker than the medium.
 Voxels ct() {
-  return phantom([](std::uint8_t t) { return t == k_air ? 78.0 : t == k_pulp ? 26.0 : t == k_dentin ? 162.0 : 235.0; }, true, 3.0);
+  return phantom(
+      [](std::uint8_t t) {
+        return t == k_air ? 78.0 : t == k_pulp ? 26.0 : t == k_dentin ? 162.0 : 235.0;
+      },
+      true, 3.0);
 }
 Voxels labels() {
   return phantom([](std::uint8_t t) { return static_cast<double>(t); }, false, 0);
@@ -62,7 +70,8 @@ std::array<double, 4> phantom_mm3() {
   const double h = 0.05;
   for (double z = -8.2; z < 4.2; z += h)
     for (double y = -4.2; y < 4.2; y += h)
-      for (double x = -4.2; x < 4.2; x += h) v[tissue_of_phantom({x + h / 2, y + h / 2, z + h / 2})] += h * h * h;
+      for (double x = -4.2; x < 4.2; x += h)
+        v[tissue_of_phantom({x + h / 2, y + h / 2, z + h / 2})] += h * h * h;
   return v;
 }
 
@@ -106,10 +115,16 @@ TEST(ImportCt, FindsTissuesWithADarkPulpAndAPartialVolumeRim) {
 
 // A ball cut from voxels twice the leaf: the surface must lie on the sphere, without steps.
 TEST(ImportCt, TheSurfaceShowsNoSteps) {
-  const auto volume = phantom([](std::uint8_t t) { return t == k_air ? 78.0 : t == k_pulp ? 26.0 : t == k_dentin ? 162.0 : 235.0; }, true, 0.0);
-  const auto done = import_volume(write_mhd(fresh_folder(), volume, "0.2 0.2 0.2"), volume_options());
+  const auto volume = phantom(
+      [](std::uint8_t t) {
+        return t == k_air ? 78.0 : t == k_pulp ? 26.0 : t == k_dentin ? 162.0 : 235.0;
+      },
+      true, 0.0);
+  const auto done =
+      import_volume(write_mhd(fresh_folder(), volume, "0.2 0.2 0.2"), volume_options());
   Octree::Cursor cursor;
-  // The frame's origin comes from the enamel's voxels, so the ball's centre is known to a voxel only: fit its height.
+  // The frame's origin comes from the enamel's voxels, so the ball's centre is known to a voxel
+  // only: fit its height.
   std::vector<std::pair<double, double>> seen;  // cosine of the polar angle, distance
   double sum_c = 0, sum_d = 0, sum_cc = 0, sum_cd = 0;
   for (int i = 0; i < 4000; ++i) {
@@ -122,7 +137,8 @@ TEST(ImportCt, TheSurfaceShowsNoSteps) {
     sum_cc += n.z * n.z;
     sum_cd += n.z * d;
   }
-  const double k = static_cast<double>(seen.size()), slope = (k * sum_cd - sum_c * sum_d) / (k * sum_cc - sum_c * sum_c);
+  const double k = static_cast<double>(seen.size()),
+               slope = (k * sum_cd - sum_c * sum_d) / (k * sum_cc - sum_c * sum_c);
   double low = 1e9, high = -1e9;
   for (const auto& [c, d] : seen) {
     low = std::min(low, d - sum_d / k - slope * (c - sum_c / k));
@@ -135,7 +151,8 @@ TEST(ImportCt, TheSurfaceShowsNoSteps) {
 TEST(ImportCt, MissingSpacingIsAssumedAndSaid) {
   const auto done = import_volume(write_mhd(fresh_folder(), ct(), "1 1 1"), volume_options());
   EXPECT_EQ(done.spacing.by, VoxelSpacing::By::assumed);
-  EXPECT_EQ(std::get<ImportedVolume>(done.tooth.source.at(0)).spacing.by, VoxelSpacing::By::assumed);
+  EXPECT_EQ(std::get<ImportedVolume>(done.tooth.source.at(0)).spacing.by,
+            VoxelSpacing::By::assumed);
   auto given = volume_options();
   given.spacing_mm = Vec3{0.2, 0.2, 0.2};
   const auto told = import_volume(write_mhd(fresh_folder(), ct(), "1 1 1"), given);
@@ -152,14 +169,17 @@ TEST(ImportCt, ExplicitThresholdsAreObeyed) {
   o.thresholds.enamel = 100;
   EXPECT_EQ(place_of(thrown_by([&] { (void)import_volume(path, o); })), "--enamel-threshold");
   o.thresholds.enamel = 200;
-  EXPECT_NEAR(volume_mm3(import_volume(path, o).tooth, k_enamel), phantom_mm3()[k_enamel], 0.12 * phantom_mm3()[k_enamel]);
+  EXPECT_NEAR(volume_mm3(import_volume(path, o).tooth, k_enamel), phantom_mm3()[k_enamel],
+              0.12 * phantom_mm3()[k_enamel]);
 }
 
 TEST(ImportCt, DamagedOrEmptyVolumesAreErrors) {
   const auto folder = fresh_folder();
   const auto path = write_mhd(folder, ct(), "0.2 0.2 0.2");
   fs::resize_file(folder / "v.raw", fs::file_size(folder / "v.raw") - 1);
-  const auto refused = [](const std::string& file) { return thrown_by([&] { (void)import_volume(file, volume_options()); }); };
+  const auto refused = [](const std::string& file) {
+    return thrown_by([&] { (void)import_volume(file, volume_options()); });
+  };
   EXPECT_EQ(code_of(refused(path)), FileError::truncated);
   EXPECT_EQ(place_of(refused(path)), (folder / "v.raw").string());
   fs::remove(folder / "v.raw");
@@ -185,7 +205,8 @@ TEST(ImportCt, DamagedOrEmptyVolumesAreErrors) {
 TEST(ImportDicom, ASeriesIsReadAndAHoleIsAnError) {
   const auto folder = fresh_folder();
   const Voxels v = ct();
-  for (int z = 0; z < v.nz; ++z) write_dicom_slice(folder / ("s" + std::to_string(z) + ".dcm"), v, z);
+  for (int z = 0; z < v.nz; ++z)
+    write_dicom_slice(folder / ("s" + std::to_string(z) + ".dcm"), v, z);
   const auto done = import_volume(folder.string(), volume_options(0.2));
   const auto truth = phantom_mm3();
   EXPECT_NEAR(volume_mm3(done.tooth, k_dentin), truth[k_dentin], 0.06 * truth[k_dentin]);
@@ -201,7 +222,8 @@ TEST(ImportLabelMap, NrrdAndNiftiGiveTheirTissues) {
   const auto truth = phantom_mm3();
   auto o = volume_options();
   o.labels = parse_label_map("1=enamel,2=dentin,3=pulp");
-  for (const auto& path : {write_nrrd(folder / "l.nrrd", labels()), write_nifti(folder / "l.nii", labels())}) {
+  for (const auto& path :
+       {write_nrrd(folder / "l.nrrd", labels()), write_nifti(folder / "l.nii", labels())}) {
     const auto done = import_volume(path, o);
     EXPECT_NEAR(volume_mm3(done.tooth, k_enamel), truth[k_enamel], 0.05 * truth[k_enamel]) << path;
     EXPECT_NEAR(volume_mm3(done.tooth, k_dentin), truth[k_dentin], 0.05 * truth[k_dentin]) << path;
@@ -218,7 +240,8 @@ TEST(ImportLabelMap, ExchangedLayersAreTheSameErrorAsForMeshes) {
   o.labels = parse_label_map("2=enamel,1=dentin,3=pulp");
   EXPECT_EQ(code_of([&] { (void)import_volume(path, o); }), ImportError::layers_exchanged);
   o.labels = parse_label_map("1=enamel,2=dentin,3=air");
-  EXPECT_NO_THROW((void)import_volume(path, o)) << "a tooth without pulp says nothing about the order";
+  EXPECT_NO_THROW((void)import_volume(path, o))
+      << "a tooth without pulp says nothing about the order";
 }
 
 TEST(ImportLabelMap, LabelsWithoutMeaningAreListed) {

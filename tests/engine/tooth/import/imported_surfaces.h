@@ -1,4 +1,5 @@
-// What tests of imports share: the surfaces of our makers, which a test may turn, scale and roughen, and how they are imported upright.
+// What tests of imports share: the surfaces of our makers, which a test may turn, scale and
+// roughen, and how they are imported upright.
 #pragma once
 
 #include "engine/tooth/import/import_meshes.h"
@@ -10,7 +11,9 @@ namespace cavum::testing_import {
 struct Surfaces {
   TriangleMesh enamel, dentin, pulp;
   explicit Surfaces(const Tooth& tooth)
-      : enamel(surface_mesh(tooth, "enamel")), dentin(surface_mesh(tooth, "dentin")), pulp(surface_mesh(tooth, "pulp")) {}
+      : enamel(surface_mesh(tooth, "enamel")),
+        dentin(surface_mesh(tooth, "dentin")),
+        pulp(surface_mesh(tooth, "pulp")) {}
   template <class Change>
   Surfaces changed(const Change& change) const {
     Surfaces out = *this;
@@ -19,7 +22,8 @@ struct Surfaces {
     return out;
   }
   [[nodiscard]] MeshPaths write(const fs::path& folder) const {
-    MeshPaths paths{(folder / "enamel.stl").string(), (folder / "dentin.stl").string(), (folder / "pulp.stl").string()};
+    MeshPaths paths{(folder / "enamel.stl").string(), (folder / "dentin.stl").string(),
+                    (folder / "pulp.stl").string()};
     write_mesh_file(enamel, paths.enamel);
     write_mesh_file(dentin, paths.dentin);
     write_mesh_file(pulp, paths.pulp);

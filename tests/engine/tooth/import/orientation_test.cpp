@@ -1,4 +1,5 @@
-// What rings round a crown tell of mesial, on rings of a formula: a circle of 4 mm, tilted so that its distal side is the higher one.
+// What rings round a crown tell of mesial, on rings of a formula: a circle of 4 mm, tilted so that
+// its distal side is the higher one.
 #include "engine/tooth/import/orientation.h"
 
 #include <gtest/gtest.h>
@@ -22,12 +23,15 @@ Landmarks mesial_at_minus_x(ToothClass seen) {
 }
 
 TEST(Orientation, ContoursOfALowerFirstPremolarTellNothing) {
-  const auto mesial = [](ToothClass seen, std::optional<ToothNumber> number) { return seen_orientation(mesial_at_minus_x(seen), number).mesial(); };
+  const auto mesial = [](ToothClass seen, std::optional<ToothNumber> number) {
+    return seen_orientation(mesial_at_minus_x(seen), number).mesial();
+  };
   for (const int fdi : {14, 15, 24, 25, 35, 45, 36, 46, 16, 27}) {
     const ToothNumber n = from_fdi(fdi, "x");
     EXPECT_EQ(mesial(n.tooth_class(), n), -1) << fdi;
   }
-  for (const int fdi : {34, 44}) EXPECT_EQ(mesial(ToothClass::premolar, from_fdi(fdi, "x")), 0) << fdi;
+  for (const int fdi : {34, 44})
+    EXPECT_EQ(mesial(ToothClass::premolar, from_fdi(fdi, "x")), 0) << fdi;
   EXPECT_EQ(mesial(ToothClass::premolar, std::nullopt), 0) << "it may be a lower first one";
   EXPECT_EQ(mesial(ToothClass::molar, std::nullopt), -1);
 }

@@ -33,8 +33,10 @@ constexpr int k_edge = 12;
 
 Voxels ramp(int edge = k_edge) {
   Voxels v{edge, edge, edge, 0.2, {}};
-  v.gray.resize(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge));
-  for (std::size_t i = 0; i < v.gray.size(); ++i) v.gray[i] = static_cast<std::uint8_t>(i * 7 % 251);
+  v.gray.resize(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge) *
+                static_cast<std::size_t>(edge));
+  for (std::size_t i = 0; i < v.gray.size(); ++i)
+    v.gray[i] = static_cast<std::uint8_t>(i * 7 % 251);
   return v;
 }
 
@@ -53,7 +55,8 @@ std::optional<Error> refused(const fs::path& path) {
 void expect_ramp(const Volume& v) {
   const Voxels was = ramp();
   ASSERT_EQ(v.gray.size(), was.gray.size());
-  for (std::size_t i = 0; i < was.gray.size(); ++i) ASSERT_EQ(v.gray[i], static_cast<float>(was.gray[i])) << i;
+  for (std::size_t i = 0; i < was.gray.size(); ++i)
+    ASSERT_EQ(v.gray[i], static_cast<float>(was.gray[i])) << i;
   for (const double s : v.spacing_mm) EXPECT_NEAR(s, 0.2, 1e-6);
 }
 
@@ -78,8 +81,10 @@ TEST(ReadVolume, ASliceThatWasCutIsRefusedAndNamedWhereverTheCutIs) {
     const fs::path slice = folder / slice_name(z);
     const Bytes whole = read_file(slice.string());
     ASSERT_GT(whole.size(), 500u);
-    for (const std::size_t kept : {std::size_t{0}, std::size_t{100}, std::size_t{131}, std::size_t{140}, std::size_t{200}, std::size_t{420},
-                                   whole.size() - 145, whole.size() - 144, whole.size() - 70, whole.size() - 2, whole.size() - 1}) {
+    for (const std::size_t kept :
+         {std::size_t{0}, std::size_t{100}, std::size_t{131}, std::size_t{140}, std::size_t{200},
+          std::size_t{420}, whole.size() - 145, whole.size() - 144, whole.size() - 70,
+          whole.size() - 2, whole.size() - 1}) {
       write_bytes(slice, {whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(kept)});
       EXPECT_EQ(place_of(refused(folder)), slice.string()) << kept << " of " << whole.size();
     }
@@ -90,13 +95,16 @@ TEST(ReadVolume, ASliceThatWasCutIsRefusedAndNamedWhereverTheCutIs) {
 
 TEST(ReadVolume, DamagedHeadersAreErrorsOrVolumesButNeverOurEnd) {
   const auto folder = series(ramp());
-  Random random(testing_basics::drawn_seed("ReadVolume.DamagedHeadersAreErrorsOrVolumesButNeverOurEnd"));
+  Random random(
+      testing_basics::drawn_seed("ReadVolume.DamagedHeadersAreErrorsOrVolumesButNeverOurEnd"));
   const fs::path slice = folder / slice_name(4);
   const Bytes whole = read_file(slice.string());
   int refusals = 0;
   for (int i = 0; i < 40; ++i) {
     Bytes damaged = whole;
-    for (int n = 0; n < 4; ++n) damaged[132 + random.below(whole.size() - 144 - 132)] = static_cast<std::uint8_t>(random.below(256));
+    for (int n = 0; n < 4; ++n)
+      damaged[132 + random.below(whole.size() - 144 - 132)] =
+          static_cast<std::uint8_t>(random.below(256));
     write_bytes(slice, damaged);
     const auto began = std::chrono::steady_clock::now();
     refusals += refused(folder) ? 1 : 0;
@@ -109,7 +117,8 @@ TEST(ReadVolume, DamagedHeadersAreErrorsOrVolumesButNeverOurEnd) {
 TEST(ReadVolume, SlicesOfOneSeriesSayInTheSameWayHowTheyAreRead) {
   const auto folder = series(ramp());
   Bytes slice = read_file((folder / slice_name(3)).string());
-  const std::array<std::uint8_t, 8> stored{0x28, 0, 1, 1, 'U', 'S', 2, 0};  // (0028,0101), bits stored
+  const std::array<std::uint8_t, 8> stored{0x28, 0,   1, 1,
+                                           'U',  'S', 2, 0};  // (0028,0101), bits stored
   const auto at = std::search(slice.begin(), slice.end(), stored.begin(), stored.end());
   ASSERT_NE(at, slice.end());
   at[8] = 7;
@@ -120,12 +129,14 @@ TEST(ReadVolume, SlicesOfOneSeriesSayInTheSameWayHowTheyAreRead) {
 
 TEST(ReadVolume, SizesThatAreClaimedAreRefusedBeforeTheyAreTaken) {
   const auto folder = fresh_folder();
-  std::ofstream(folder / "a.nrrd") << "NRRD0004\ntype: float\nendian: little\ndimension: 3\nsizes: 1300 1000 1000\nencoding: gzip\n\nnothing";
+  std::ofstream(folder / "a.nrrd")
+      << "NRRD0004\ntype: float\nendian: little\ndimension: 3\nsizes: 1300 1000 1000\nencoding: gzip\n\nnothing";
   const auto claimed = refused(folder / "a.nrrd");
   EXPECT_EQ(code_of(claimed), FileError::too_large);
   EXPECT_TRUE(tells(claimed, 16777216));
-  std::ofstream(folder / "a.mha") << "ObjectType = Image\nNDims = 3\nBinaryData = True\nCompressedData = True\nDimSize = 900000 900000 9\n"
-                                     "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n0";
+  std::ofstream(folder / "a.mha")
+      << "ObjectType = Image\nNDims = 3\nBinaryData = True\nCompressedData = True\nDimSize = 900000 900000 9\n"
+         "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n0";
   EXPECT_TRUE(refused(folder / "a.mha"));
   // slices of 1.7 kB that claim 65,535 x 65,535 each
   const auto slices = series(ramp());
@@ -143,8 +154,10 @@ TEST(ReadVolume, SizesThatAreClaimedAreRefusedBeforeTheyAreTaken) {
   EXPECT_TRUE(tells(refused(slices), Value(std::int64_t{4294836225})));
 }
 
-/// Packed by gzip: 4096 bytes, of which byte i is i % 7. Made by Python: gzip.compress(bytes(i % 7 for i in range(4096)), mtime=0).
-constexpr const char* k_packed = "1f8b0800000000000203edc5c1110030040030b4ec3fb23d5cf24964bddf139224499224e96e0b77d3c17400100000";
+/// Packed by gzip: 4096 bytes, of which byte i is i % 7. Made by Python: gzip.compress(bytes(i % 7
+/// for i in range(4096)), mtime=0).
+constexpr const char* k_packed =
+    "1f8b0800000000000203edc5c1110030040030b4ec3fb23d5cf24964bddf139224499224e96e0b77d3c17400100000";
 
 std::string packed_meta(std::size_t size) {
   return "ObjectType = Image\nNDims = 3\nBinaryData = True\nCompressedData = True\n" +
@@ -156,7 +169,8 @@ std::string packed_meta(std::size_t size) {
 TEST(ReadVolume, AMetaImageThatMisstatesItsPackedBytesIsRefused) {
   const auto folder = fresh_folder();
   const Bytes packed = from_hex(k_packed).value();
-  for (const std::size_t said : {std::size_t{0}, std::size_t{1}, packed.size() - 1, packed.size() + 1, std::size_t{1'000'000'000'000}}) {
+  for (const std::size_t said : {std::size_t{0}, std::size_t{1}, packed.size() - 1,
+                                 packed.size() + 1, std::size_t{1'000'000'000'000}}) {
     const std::string head = packed_meta(said);
     Bytes all(head.begin(), head.end());
     all.insert(all.end(), packed.begin(), packed.end());
@@ -169,7 +183,8 @@ TEST(ReadVolume, PackedDataThatWereCutOrDamagedAreRefused) {
   const auto folder = fresh_folder();
   const Bytes packed = from_hex(k_packed).value();
   const std::string meta = packed_meta(packed.size());
-  const std::string nrrd = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 16 16 16\nspacings: 0.2 0.2 0.2\nencoding: gzip\n\n";
+  const std::string nrrd =
+      "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 16 16 16\nspacings: 0.2 0.2 0.2\nencoding: gzip\n\n";
   for (const auto& format : {std::pair("v.mha", meta), std::pair("v.nrrd", nrrd)}) {
     const auto& name = format.first;
     const auto& head = format.second;
@@ -197,7 +212,9 @@ TEST(ReadVolume, PackedDataThatWereCutOrDamagedAreRefused) {
 Bytes tiff(int pages) {
   ByteWriter out;
   for (const char c : {'I', 'I', '*', '\0'}) out.put(c);
-  const auto page_at = [](int page) { return static_cast<std::uint32_t>(8 + page * (64 + 2 + 9 * 12 + 4) + 64); };
+  const auto page_at = [](int page) {
+    return static_cast<std::uint32_t>(8 + page * (64 + 2 + 9 * 12 + 4) + 64);
+  };
   out.put(page_at(0));
   for (int page = 0; page < pages; ++page) {
     for (int i = 0; i < 64; ++i) out.put(static_cast<std::uint8_t>(i * 3 + page));
@@ -208,7 +225,8 @@ Bytes tiff(int pages) {
       out.put(std::uint32_t{1});
       out.put(value);
     };
-    field(256, 3, 8), field(257, 3, 8), field(258, 3, 8), field(259, 3, 1), field(262, 3, 1), field(273, 4, page_at(page) - 64);
+    field(256, 3, 8), field(257, 3, 8), field(258, 3, 8), field(259, 3, 1), field(262, 3, 1),
+        field(273, 4, page_at(page) - 64);
     field(277, 3, 1), field(278, 3, 8), field(279, 4, 64);
     out.put(page + 1 < pages ? page_at(page + 1) : 0);
   }
@@ -238,8 +256,12 @@ TEST(ReadVolume, OnlyOrdinaryFilesAreOpened) {
   ASSERT_EQ(::mkfifo((folder / "p.nrrd").c_str(), 0600), 0);
   EXPECT_EQ(code_of(refused(folder / "p.nrrd")), FileError::missing);
   for (const char* data : {"/dev/zero", "p.nrrd", "LIST", "s%03d.raw 1 9 1"}) {
-    std::ofstream(folder / "d.mhd") << "ObjectType = Image\nNDims = 3\nDimSize = 8 8 8\nElementType = MET_UCHAR\nElementDataFile = " << data << "\n";
-    std::ofstream(folder / "d.nhdr") << "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 8 8 8\nencoding: raw\ndata file: " << data << "\n";
+    std::ofstream(folder / "d.mhd")
+        << "ObjectType = Image\nNDims = 3\nDimSize = 8 8 8\nElementType = MET_UCHAR\nElementDataFile = "
+        << data << "\n";
+    std::ofstream(folder / "d.nhdr")
+        << "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 8 8 8\nencoding: raw\ndata file: " << data
+        << "\n";
     for (const char* header : {"d.mhd", "d.nhdr"}) EXPECT_TRUE(refused(folder / header)) << data;
   }
 }
@@ -247,7 +269,8 @@ TEST(ReadVolume, OnlyOrdinaryFilesAreOpened) {
 /// What is told of a program that is run instead of ours.
 std::optional<Error> told_by(const std::string& script) {
   const auto folder = fresh_folder();
-  const std::string program = (folder / "program").string(), volume = write_nrrd(folder / "l.nrrd", ramp());
+  const std::string program = (folder / "program").string(),
+                    volume = write_nrrd(folder / "l.nrrd", ramp());
   std::ofstream(program) << "#!/bin/sh\n" << script << "\n";
   fs::permissions(program, fs::perms::owner_all);
   ::setenv("CAVUM_READ_VOLUME", program.c_str(), 1);
@@ -272,12 +295,14 @@ TEST(ReadVolume, TheOtherProcessMayEndInAnyWay) {
   EXPECT_STREQ(told->problem().english(), "a");
   EXPECT_STREQ(told->advice().english(), "do!");
   ::setenv("CAVUM_READ_VOLUME", "/nowhere/cavum-read-volume", 1);
-  EXPECT_EQ(place_of(refused(write_nrrd(fresh_folder() / "l.nrrd", ramp()))), "/nowhere/cavum-read-volume");
+  EXPECT_EQ(place_of(refused(write_nrrd(fresh_folder() / "l.nrrd", ramp()))),
+            "/nowhere/cavum-read-volume");
   ::setenv("CAVUM_READ_VOLUME", CAVUM_READ_VOLUME_PROGRAM, 1);
 }
 
 /// What receive_volume makes of these bytes.
-std::optional<Error> received(const Bytes& bytes, std::uint64_t most = 1000, bool close_after = true) {
+std::optional<Error> received(const Bytes& bytes, std::uint64_t most = 1000,
+                              bool close_after = true) {
   std::array<int, 2> ends{};
   EXPECT_EQ(::pipe(ends.data()), 0);
   std::thread sender([&] {
@@ -315,7 +340,10 @@ TEST(VolumeWire, WhatIsNotAWholeVolumeIsAnError) {
   EXPECT_TRUE(tells(received(sent({10, 10, 10}, 500), 1000, false), 1)) << "the limit in seconds";
   for (std::size_t n = 0; n < 150; ++n) {
     const Bytes whole = sent({1, 1, 1}, 1);
-    EXPECT_EQ(!received({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(std::min(n, whole.size()))}), n >= whole.size()) << n;
+    EXPECT_EQ(!received({whole.begin(),
+                         whole.begin() + static_cast<std::ptrdiff_t>(std::min(n, whole.size()))}),
+              n >= whole.size())
+        << n;
   }
 }
 

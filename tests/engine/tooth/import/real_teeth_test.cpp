@@ -16,13 +16,16 @@ using testing_tooth::volume_mm3;
 
 MeshPaths layers(const std::string& tooth) {
   const auto f = shared_folder() / "teeth" / "openmandible";
-  const auto part = [&](const char* name) { return (f / ("Tooth_" + tooth + "_" + name + ".stl")).string(); };
+  const auto part = [&](const char* name) {
+    return (f / ("Tooth_" + tooth + "_" + name + ".stl")).string();
+  };
   return {part("Enamel"), part("Dentin"), part("Pulp")};
 }
 
 // Volumes as SOURCE.txt of the meshes states them.
 TEST(RealTeeth, FirstMolarKeepsItsVolumes) {
-  if (shared_folder().empty()) GTEST_SKIP() << "no shared/ folder beside the repository: real teeth not tested";
+  if (shared_folder().empty())
+    GTEST_SKIP() << "no shared/ folder beside the repository: real teeth not tested";
   MeshImportOptions o;
   o.periodontium_mm = 0;
   o.frame.mesial_axis = Vec3{0, -1, 0};
@@ -34,10 +37,12 @@ TEST(RealTeeth, FirstMolarKeepsItsVolumes) {
 }
 
 TEST(RealTeeth, IncisorAndPremolarKeepTheirVolumes) {
-  if (shared_folder().empty()) GTEST_SKIP() << "no shared/ folder beside the repository: real teeth not tested";
+  if (shared_folder().empty())
+    GTEST_SKIP() << "no shared/ folder beside the repository: real teeth not tested";
   MeshImportOptions turned;
   turned.frame.mesial_axis = Vec3{-0.8, -0.6, 0};
-  const auto incisor = import_meshes(layers("L1"), {}).tooth, premolar = import_meshes(layers("L4"), turned).tooth;
+  const auto incisor = import_meshes(layers("L1"), {}).tooth,
+             premolar = import_meshes(layers("L4"), turned).tooth;
   EXPECT_NEAR(volume_mm3(incisor, k_enamel), 55.2, 0.55);
   EXPECT_NEAR(volume_mm3(incisor, k_dentin), 204.8, 2.0);
   EXPECT_NEAR(volume_mm3(incisor, k_pulp), 10.7, 0.21);
@@ -47,20 +52,27 @@ TEST(RealTeeth, IncisorAndPremolarKeepTheirVolumes) {
 }
 
 TEST(RealTeeth, ExchangedEnamelAndDentinAreFound) {
-  if (shared_folder().empty()) GTEST_SKIP() << "no shared/ folder beside the repository: real teeth not tested";
+  if (shared_folder().empty())
+    GTEST_SKIP() << "no shared/ folder beside the repository: real teeth not tested";
   MeshImportOptions o;
   o.leaf_mm = 0.2;
   for (const char* tooth : {"L1", "L4", "L6"}) {
     const auto p = layers(tooth);
-    EXPECT_EQ(code_of([&] { (void)import_meshes({p.dentin, p.enamel, p.pulp}, o); }), ImportError::layers_exchanged) << tooth;
+    EXPECT_EQ(code_of([&] {
+                (void)import_meshes({p.dentin, p.enamel, p.pulp}, o);
+              }),
+              ImportError::layers_exchanged)
+        << tooth;
   }
 }
 
 TEST(RealTeeth, CtGivesEnamelDentinAndOnePulpWithoutHelp) {
-  if (shared_folder().empty()) GTEST_SKIP() << "no shared/ folder beside the repository: real teeth not tested";
+  if (shared_folder().empty())
+    GTEST_SKIP() << "no shared/ folder beside the repository: real teeth not tested";
   VolumeImportOptions o;
   o.leaf_mm = 0.1;
-  const auto done = import_volume((shared_folder() / "teeth" / "ct_tooth_scivis" / "tooth.nhdr").string(), o);
+  const auto done =
+      import_volume((shared_folder() / "teeth" / "ct_tooth_scivis" / "tooth.nhdr").string(), o);
   EXPECT_GE(done.native_pulp, 12'500u);
   EXPECT_LE(done.native_pulp, 20'000u);
   EXPECT_EQ(done.pulp_bodies, 1u);

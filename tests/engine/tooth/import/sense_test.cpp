@@ -1,4 +1,5 @@
-// What an import says of a tooth, and what it refuses: our makers as STL in other units, upside down, with layers exchanged, mirrored.
+// What an import says of a tooth, and what it refuses: our makers as STL in other units, upside
+// down, with layers exchanged, mirrored.
 #include "engine/tooth/import/sense.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +54,8 @@ bool contradicts(const std::optional<Error>& refusal, const char* measure) {
 std::optional<double> turn_in(const Message& m) {
   constexpr std::string_view k_option = "--rotate-deg ";
   for (const Value& v : m.values()) {
-    if (const auto* name = std::get_if<Name>(&v); name != nullptr && name->text.starts_with(k_option))
+    if (const auto* name = std::get_if<Name>(&v);
+        name != nullptr && name->text.starts_with(k_option))
       return std::stod(name->text.substr(k_option.size()));
     if (const auto* inner = std::get_if<Message>(&v))
       if (const auto turn = turn_in(*inner)) return turn;
@@ -68,16 +70,27 @@ bool any_gives(Unit unit, const std::vector<Message>& list) {
   });
 }
 bool any_turn_in(const std::vector<Message>& list) {
-  return std::any_of(list.begin(), list.end(), [](const Message& m) { return turn_in(m).has_value(); });
+  return std::any_of(list.begin(), list.end(),
+                     [](const Message& m) { return turn_in(m).has_value(); });
 }
 
 TEST(Sense, NumbersOfBothSystemsAreTheSameTeeth) {
-  for (const auto& [fdi, universal] : {std::pair{18, 1}, {11, 8}, {21, 9}, {28, 16}, {38, 17}, {36, 19}, {31, 24}, {41, 25}, {46, 30}, {48, 32}}) {
+  for (const auto& [fdi, universal] : {std::pair{18, 1},
+                                       {11, 8},
+                                       {21, 9},
+                                       {28, 16},
+                                       {38, 17},
+                                       {36, 19},
+                                       {31, 24},
+                                       {41, 25},
+                                       {46, 30},
+                                       {48, 32}}) {
     EXPECT_EQ(from_fdi(fdi, "x").universal(), universal) << fdi;
     EXPECT_EQ(from_universal(universal, "x").fdi, fdi) << universal;
   }
   for (int u = 1; u <= 32; ++u) EXPECT_EQ(from_universal(u, "x").universal(), u);
-  for (const int bad : {0, 10, 19, 29, 49, 51, 85, -36}) EXPECT_THROW((void)from_fdi(bad, "x"), Error) << bad;
+  for (const int bad : {0, 10, 19, 29, 49, 51, 85, -36})
+    EXPECT_THROW((void)from_fdi(bad, "x"), Error) << bad;
   for (const int bad : {0, 33, -1}) EXPECT_THROW((void)from_universal(bad, "x"), Error) << bad;
   EXPECT_TRUE(from_fdi(36, "x").text().starts_with("36 (universal 19), "));
   EXPECT_EQ(from_fdi(36, "x").tooth_class(), ToothClass::molar);
@@ -85,11 +98,13 @@ TEST(Sense, NumbersOfBothSystemsAreTheSameTeeth) {
   EXPECT_FALSE(from_fdi(46, "x").y_is_buccal());
 }
 
-// z cross mesial, in the patient: outwards at the molars of quadrants 1 and 3, inwards at those of 2 and 4.
+// z cross mesial, in the patient: outwards at the molars of quadrants 1 and 3, inwards at those of
+// 2 and 4.
 TEST(Sense, MesialInThePatientGivesTheHandednessOfTheQuadrant) {
   for (const int fdi : {16, 26, 36, 46, 18, 47}) {
     const ToothNumber n = from_fdi(fdi, "x");
-    const Vec3 mesial = mesial_in_patient(n, "lps"), occlusal{0, 0, n.upper() ? -1.0 : 1.0}, outwards{n.left() ? 1.0 : -1.0, 0, 0};
+    const Vec3 mesial = mesial_in_patient(n, "lps"), occlusal{0, 0, n.upper() ? -1.0 : 1.0},
+               outwards{n.left() ? 1.0 : -1.0, 0, 0};
     EXPECT_EQ(dot(cross(occlusal, mesial), outwards) > 0, n.y_is_buccal()) << fdi;
     EXPECT_LT(mesial.y, -0.9) << "forwards";
     const Vec3 ras = mesial_in_patient(n, "ras");
@@ -136,7 +151,8 @@ TEST(Sense, CrownsOfNoHumanAreRefusedUnlessConfirmed) {
 TEST(Sense, UpsideDownAndAcrossAreRefused) {
   MeshImportOptions o = upright(k_sensed_mm);
   o.frame.occlusal_axis = Vec3{0, 0, -1};
-  for (const Surfaces* s : {&molar(), &incisor()}) EXPECT_TRUE(contradicts(refusal(*s, o), "upright"));
+  for (const Surfaces* s : {&molar(), &incisor()})
+    EXPECT_TRUE(contradicts(refusal(*s, o), "upright"));
   o.frame.occlusal_axis = Vec3{0, 1, 0};
   EXPECT_TRUE(contradicts(refusal(molar(), o), "upright"));
   MeshImportOptions patient = upright(k_sensed_mm);
@@ -163,7 +179,8 @@ TEST(Sense, LayersThatDoNotFitUponEachOtherAreRefused) {
   for (const Vec3 by : {Vec3{0, 0, 1.0}, Vec3{1, 0, 0}, Vec3{0, -1, 0}}) {
     Surfaces s = molar();
     for (auto& v : s.enamel.vertices_mm) v += by;
-    EXPECT_EQ(code_of(refusal(s, o)), ImportError::layers_apart) << by.x << " " << by.y << " " << by.z;
+    EXPECT_EQ(code_of(refusal(s, o)), ImportError::layers_apart)
+        << by.x << " " << by.y << " " << by.z;
   }
 }
 
@@ -185,10 +202,13 @@ TEST(Sense, SurfacesOfAnotherToothAreRefused) {
 void append(TriangleMesh& to, const TriangleMesh& part, bool inside_out) {
   const auto first = static_cast<std::uint32_t>(to.vertices_mm.size());
   to.vertices_mm.insert(to.vertices_mm.end(), part.vertices_mm.begin(), part.vertices_mm.end());
-  for (const auto& t : part.triangles) to.triangles.push_back({t[0] + first, t[inside_out ? 2 : 1] + first, t[inside_out ? 1 : 2] + first});
+  for (const auto& t : part.triangles)
+    to.triangles.push_back(
+        {t[0] + first, t[inside_out ? 2 : 1] + first, t[inside_out ? 1 : 2] + first});
 }
 
-// A ball with a hollow ball in it, of which a filling knows nothing: the hollow has the inner ball's volume, whichever way its faces look.
+// A ball with a hollow ball in it, of which a filling knows nothing: the hollow has the inner
+// ball's volume, whichever way its faces look.
 TEST(Sense, AHollowIsFoundByTheSurfacesAboveAndBelow) {
   for (const bool inside_out : {false, true}) {
     const double outer_mm = 3.0, inner_mm = 1.7;
@@ -200,16 +220,19 @@ TEST(Sense, AHollowIsFoundByTheSurfacesAboveAndBelow) {
     for (int z = 0; z < 80; ++z)
       for (int y = 0; y < 80; ++y)
         for (int x = 0; x < 80; ++x)
-          filled[lattice.index({x, y, z})] = static_cast<float>(length(lattice.centre_mm({x, y, z}) - Vec3{0.1, -0.2, 0.3}) - (outer_mm - 0.1));
+          filled[lattice.index({x, y, z})] = static_cast<float>(
+              length(lattice.centre_mm({x, y, z}) - Vec3{0.1, -0.2, 0.3}) - (outer_mm - 0.1));
     const auto hollow = hollows(mesh, filled, lattice);
     const auto leaves = static_cast<double>(std::count(hollow.begin(), hollow.end(), 1));
-    EXPECT_NEAR(leaves * 0.001, 4.0 / 3.0 * std::acos(-1.0) * inner_mm * inner_mm * inner_mm, 0.2) << inside_out;
+    EXPECT_NEAR(leaves * 0.001, 4.0 / 3.0 * std::acos(-1.0) * inner_mm * inner_mm * inner_mm, 0.2)
+        << inside_out;
   }
 }
 
 TEST(Sense, LayersThatFitLooselyAreTold) {
   ToothSense sense;
-  tell_loose_layers({0.8, 0.004, 0.5}, {0, 0.002, 0.003, 1.0}, sense);  // the worst of thirteen human teeth
+  tell_loose_layers({0.8, 0.004, 0.5}, {0, 0.002, 0.003, 1.0},
+                    sense);  // the worst of thirteen human teeth
   EXPECT_TRUE(sense.warnings.empty());
   tell_loose_layers({0.8, 0.019, 0.5}, {0, 0.002, 0.003, 1.0}, sense);
   tell_loose_layers({0.8, 0.004, 0.5}, {0, 0.034, 0.003, 1.0}, sense);
@@ -230,15 +253,18 @@ TEST(Sense, EnamelThatFloatsIsRefusedAndAPearlIsTold) {
     Surfaces more = s;
     const TriangleMesh extra = ball(centre, 0.6, 12);
     const auto first = static_cast<std::uint32_t>(more.enamel.vertices_mm.size());
-    more.enamel.vertices_mm.insert(more.enamel.vertices_mm.end(), extra.vertices_mm.begin(), extra.vertices_mm.end());
-    for (const auto& t : extra.triangles) more.enamel.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    more.enamel.vertices_mm.insert(more.enamel.vertices_mm.end(), extra.vertices_mm.begin(),
+                                   extra.vertices_mm.end());
+    for (const auto& t : extra.triangles)
+      more.enamel.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     return more;
   };
   EXPECT_EQ(code_of(refusal(with(top + Vec3{0, 0, 2}), o)), ImportError::layers_apart);
   const Surfaces pearl = with(side + Vec3{0.2, 0, 0});
   const auto warnings = import_meshes(pearl.write(fresh_folder()), o).sense.warnings;
   EXPECT_TRUE(any_gives(Unit::mm3, warnings)) << "the pearl's volume";
-  EXPECT_FALSE(any_gives(Unit::mm2, warnings)) << "bare dentin";  // the crown does not end where the pearl does
+  EXPECT_FALSE(any_gives(Unit::mm2, warnings))
+      << "bare dentin";  // the crown does not end where the pearl does
 }
 
 /// A crown of enamel 1 mm thick on dentin, and what is not enamel of it.
@@ -251,18 +277,23 @@ TissueGrid crown_without(const Bare& bare) {
       for (int x = 0; x < 120; ++x) {
         const Vec3 p = grid.centre_mm({x, y, z});
         const double r = length({p.x, p.y, 0});
-        grid.tissue[grid.index({x, y, z})] = r < 3 && p.z < 5 ? k_dentin : r < 4 && p.z > 0 && !bare(p) ? k_enamel : k_air;
+        grid.tissue[grid.index({x, y, z})] = r < 3 && p.z < 5               ? k_dentin
+                                             : r < 4 && p.z > 0 && !bare(p) ? k_enamel
+                                                                            : k_air;
       }
   return grid;
 }
 
 TEST(Sense, DentinThatLiesBareInTheCrownIsMeasured) {
   EXPECT_EQ(bare_dentin(crown_without([](Vec3) { return false; })).mm2, 0.0);
-  // a hole 1.2 mm wide through the top, and a crack 0.3 mm wide down the side to the neck, of which the last millimetre may be a notch of the neck
-  const BareDentin hole = bare_dentin(crown_without([](Vec3 p) { return p.z > 5 && p.x * p.x + p.y * p.y < 0.36; }));
+  // a hole 1.2 mm wide through the top, and a crack 0.3 mm wide down the side to the neck, of which
+  // the last millimetre may be a notch of the neck
+  const BareDentin hole =
+      bare_dentin(crown_without([](Vec3 p) { return p.z > 5 && p.x * p.x + p.y * p.y < 0.36; }));
   EXPECT_NEAR(hole.largest_mm2, 3.14159265 * 0.36, 0.15);
   EXPECT_LT(length(hole.at_mm - Vec3{0, 0, 4.95}), 0.1);
-  const BareDentin crack = bare_dentin(crown_without([](Vec3 p) { return p.y > 0 && std::fabs(p.x) < 0.15 && p.z > 1 && p.z < 5; }));
+  const BareDentin crack = bare_dentin(
+      crown_without([](Vec3 p) { return p.y > 0 && std::fabs(p.x) < 0.15 && p.z > 1 && p.z < 5; }));
   EXPECT_NEAR(crack.mm2, 0.3 * 4, 0.4);
   EXPECT_NEAR(crack.at_mm.y, 2.95, 0.1);
   ToothSense sense;
@@ -306,13 +337,15 @@ TEST(Sense, APulpMayEndAtTheApexAndNotHangOutOfIt) {
 }
 
 TEST(Sense, ACleftInTheCrownHoldsNoPeriodontium) {
-  TissueGrid grid = crown_without([](Vec3 p) { return std::fabs(p.x) < 0.15 && p.y > 0 && p.z > 1.0; });
+  TissueGrid grid =
+      crown_without([](Vec3 p) { return std::fabs(p.x) < 0.15 && p.y > 0 && p.z > 1.0; });
   EXPECT_GT(add_periodontium(grid, 1.0), 0u);
   double highest = -1e9;
   for (int z = 0; z < grid.size.z; ++z)
     for (int y = 0; y < grid.size.y; ++y)
       for (int x = 0; x < grid.size.x; ++x)
-        if (grid.tissue[grid.index({x, y, z})] == k_periodontium) highest = std::max(highest, grid.centre_mm({x, y, z}).z);
+        if (grid.tissue[grid.index({x, y, z})] == k_periodontium)
+          highest = std::max(highest, grid.centre_mm({x, y, z}).z);
   EXPECT_LT(highest, 1.1);
   EXPECT_GT(highest, -0.2) << "it reaches up to the neck";
 }
@@ -327,11 +360,13 @@ TEST(Sense, APulpThatIsWideTowardsTheRootIsRefused) {
       for (int y = 0; y < 80; ++y)
         for (int x = 0; x < 80; ++x) {
           const Vec3 p = grid.centre_mm({x, y, z});
-          const double r = length({p.x, p.y, 0}), up = (p.z + 9) / 9, wide = 0.3 + 1.2 * (over ? 1 - up : up);
+          const double r = length({p.x, p.y, 0}), up = (p.z + 9) / 9,
+                       wide = 0.3 + 1.2 * (over ? 1 - up : up);
           auto& t = grid.tissue[grid.index({x, y, z})];
           t = r > 3.5 || p.z < -11.5 || p.z > 3.5 ? k_air : p.z > 1 ? k_enamel : k_dentin;
           if (p.z > -9 && p.z < 0 && r < wide) t = k_pulp;
-          grid.distance[grid.index({x, y, z})] = encode_distance(t == k_air || t == k_pulp ? 2 : -2);
+          grid.distance[grid.index({x, y, z})] =
+              encode_distance(t == k_air || t == k_pulp ? 2 : -2);
         }
     tooth.octree = Octree(grid, tooth.tissues);
   };
@@ -345,7 +380,8 @@ TEST(Sense, APulpThatIsWideTowardsTheRootIsRefused) {
 TEST(Sense, ANumberOfAnotherClassIsRefusedAndARightOneIsKept) {
   MeshImportOptions o = upright(k_sensed_mm);
   o.sense.number = from_fdi(11, "x");
-  for (const Surfaces* s : {&molar(), &premolar()}) EXPECT_TRUE(contradicts(refusal(*s, o), "class"));
+  for (const Surfaces* s : {&molar(), &premolar()})
+    EXPECT_TRUE(contradicts(refusal(*s, o), "class"));
   o.sense.number = from_fdi(36, "x");
   EXPECT_TRUE(contradicts(refusal(incisor(), o), "class"));
   const auto done = import_meshes(molar().write(fresh_folder()), o);
@@ -362,7 +398,8 @@ Surfaces in_a_mirror(const Surfaces& of) {
   return s;
 }
 
-// A lower right molar is the mirror image of our lower left one: its +y is lingual, and every later task takes +y for buccal.
+// A lower right molar is the mirror image of our lower left one: its +y is lingual, and every later
+// task takes +y for buccal.
 TEST(Sense, AToothOfTheOtherSideIsTakenAsItsMirrorImageAndSaysSo) {
   MeshImportOptions o = upright(k_sensed_mm);
   o.sense.number = from_fdi(46, "x");
@@ -373,7 +410,8 @@ TEST(Sense, AToothOfTheOtherSideIsTakenAsItsMirrorImageAndSaysSo) {
   EXPECT_EQ(mirrored.tooth.notes_of(ToothNote::Kind::warning), mirrored.sense.warnings);
   const Tooth again = load_tooth(save_tooth(mirrored.tooth), "again");
   EXPECT_EQ(again.notes, mirrored.tooth.notes);
-  const Landmarks ours = find_landmarks(import_meshes(molar().write(fresh_folder()), upright(k_sensed_mm)).tooth),
+  const Landmarks ours = find_landmarks(
+                      import_meshes(molar().write(fresh_folder()), upright(k_sensed_mm)).tooth),
                   theirs = find_landmarks(mirrored.tooth);
   ASSERT_EQ(ours.cusps.size(), theirs.cusps.size());
   for (std::size_t i = 0; i < ours.cusps.size(); ++i) {
@@ -381,7 +419,8 @@ TEST(Sense, AToothOfTheOtherSideIsTakenAsItsMirrorImageAndSaysSo) {
     EXPECT_LT(length(ours.cusps[i].tip_mm - theirs.cusps[i].tip_mm), 0.3) << ours.cusps[i].name;
   }
   o.frame.mirror = true;
-  EXPECT_EQ(tooth_hash(import_meshes(in_a_mirror(molar()).write(fresh_folder()), o).tooth), tooth_hash(mirrored.tooth))
+  EXPECT_EQ(tooth_hash(import_meshes(in_a_mirror(molar()).write(fresh_folder()), o).tooth),
+            tooth_hash(mirrored.tooth))
       << "--mirror says it once more";
   o.sense.number = from_fdi(36, "x");
   EXPECT_EQ(place_of(refusal(molar(), o)), "--mirror");
@@ -410,13 +449,22 @@ TEST(Sense, AMolarTurnedAboutItsLongAxisIsRefusedWithTheTurnThatMendsIt) {
     EXPECT_FALSE(refusal(grown_molar(), turned)) << deg;
     turned.frame.rotate_deg = deg;
     turned.sense.confirmed = {"mesial"};
-    EXPECT_TRUE(tells(import_meshes(grown_molar().write(fresh_folder()), turned).tooth.notes_of(ToothNote::Kind::warning), "mesial")) << deg;
+    EXPECT_TRUE(tells(import_meshes(grown_molar().write(fresh_folder()), turned)
+                          .tooth.notes_of(ToothNote::Kind::warning),
+                      "mesial"))
+        << deg;
   }
-  // where nothing is said of sides there is nothing to contradict: it is taken, and the tooth bears the warning
+  // where nothing is said of sides there is nothing to contradict: it is taken, and the tooth bears
+  // the warning
   MeshImportOptions silent = o;
   silent.sense.number.reset();
   silent.frame.mesial_axis.reset();
-  const auto taken = import_meshes(grown_molar().changed([](Vec3 p) { return Vec3{p.y, -p.x, p.z}; }).write(fresh_folder()), silent);
+  const auto taken = import_meshes(grown_molar()
+                                       .changed([](Vec3 p) {
+                                         return Vec3{p.y, -p.x, p.z};
+                                       })
+                                       .write(fresh_folder()),
+                                   silent);
   EXPECT_TRUE(any_turn_in(taken.tooth.notes_of(ToothNote::Kind::warning)));
   // the plain molar is alike on both sides: its canals tell the line
   o.frame.mesial_axis = Vec3{0, 1, 0};
@@ -434,7 +482,8 @@ TEST(Sense, ANumberOfTheOtherSideOfTheJawIsRefused) {
   o.sense.number.reset();
   EXPECT_TRUE(contradicts(refusal(in_a_mirror(grown_molar()), o), "side"));
   o.sense.confirmed = {"side"};
-  EXPECT_TRUE(tells(import_meshes(in_a_mirror(grown_molar()).write(fresh_folder()), o).sense.warnings, "side"));
+  EXPECT_TRUE(tells(
+      import_meshes(in_a_mirror(grown_molar()).write(fresh_folder()), o).sense.warnings, "side"));
 }
 
 // A blunt or worn canine has an edge: nobody is refused his canine for it.
@@ -448,7 +497,8 @@ TEST(Sense, ACanineWithAnEdgeIsTaken) {
 TEST(Sense, APieceOfAnotherToothOnTheContactIsRefused) {
   Surfaces s = molar();
   const auto first = static_cast<std::uint32_t>(s.enamel.vertices_mm.size());
-  for (int i = 0; i < 8; ++i) s.enamel.vertices_mm.push_back({i & 1 ? 7.2 : 4.8, i & 2 ? 1.5 : -1.5, i & 4 ? 2.0 : -1.0});
+  for (int i = 0; i < 8; ++i)
+    s.enamel.vertices_mm.push_back({i & 1 ? 7.2 : 4.8, i & 2 ? 1.5 : -1.5, i & 4 ? 2.0 : -1.0});
   for (const auto& [a, b, c] : {std::array{0u, 2u, 1u},
                                 {1u, 2u, 3u},
                                 {4u, 5u, 6u},
@@ -471,12 +521,14 @@ TEST(Sense, APieceOfAnotherToothOnTheContactIsRefused) {
 TEST(Sense, AFrontToothsEdgeTellsTheMesiodistalLine) {
   MeshImportOptions o = upright(k_sensed_mm);
   o.frame.mesial_axis = Vec3{0, 1, 0};
-  for (const Surfaces* s : {&incisor(), &premolar()}) EXPECT_TRUE(contradicts(refusal(*s, o), "mesial"));
+  for (const Surfaces* s : {&incisor(), &premolar()})
+    EXPECT_TRUE(contradicts(refusal(*s, o), "mesial"));
   o.frame.mesial_axis.reset();
   o.frame.rotate_deg = 90;
   const auto refused = refusal(incisor(), o);
   ASSERT_TRUE(refused);
-  EXPECT_TRUE(turn_in(refused->advice())) << "also where nobody said what is mesial: it was measured";
+  EXPECT_TRUE(turn_in(refused->advice()))
+      << "also where nobody said what is mesial: it was measured";
   o.frame.rotate_deg = 0;
   const auto done = import_meshes(incisor().write(fresh_folder()), o);
   EXPECT_FALSE(done.sense.warnings.empty()) << "which end is mesial";

@@ -81,7 +81,8 @@ TYPED_TEST(FormulaTeeth, HaveTheMeasuresOfTheTextbook) {
       z.add(low.z + e);
     }
   });
-  std::cout << TypeParam::k_name << ": enamel " << x.size() << " x " << y.size() << " x " << z.size() << " mm, whole " << all_z.size() << " mm\n";
+  std::cout << TypeParam::k_name << ": enamel " << x.size() << " x " << y.size() << " x "
+            << z.size() << " mm, whole " << all_z.size() << " mm\n";
   EXPECT_NEAR(x.size(), TypeParam::k_length, 0.4);
   EXPECT_NEAR(y.size(), TypeParam::k_width, 0.4);
   EXPECT_NEAR(z.size(), TypeParam::k_crown, 0.6);
@@ -99,7 +100,8 @@ TYPED_TEST(FormulaTeeth, EncloseOneBodyOfPulpInDentin) {
     for (std::int32_t y = 1; y + 1 < grid.size.y; ++y)
       for (std::int32_t x = 1; x + 1 < grid.size.x; ++x)
         if (grid.tissue[grid.index({x, y, z})] == k_pulp)
-          for (const IVec3 s : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}, IVec3{0, 0, 1}, IVec3{0, 0, -1}}) {
+          for (const IVec3 s : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0},
+                                IVec3{0, 0, 1}, IVec3{0, 0, -1}}) {
             const auto t = grid.tissue[grid.index(IVec3{x, y, z} + s)];
             ASSERT_TRUE(t == k_pulp || t == k_dentin) << x << ' ' << y << ' ' << z;
           }
@@ -111,23 +113,26 @@ TYPED_TEST(FormulaTeeth, StoreDistancesThatLeadToTheTrueSurface) {
   const typename TypeParam::Formula formula(coarse<TypeParam>());
   const auto f = [&](Vec3 p) { return std::max(formula.outside(p), -formula.pulp(p)); };
   const Octree& octree = tooth<TypeParam>().octree;
-  const Vec3 low = octree.origin_mm(), size{octree.size().x * k_leaf, octree.size().y * k_leaf, octree.size().z * k_leaf};
+  const Vec3 low = octree.origin_mm(),
+             size{octree.size().x * k_leaf, octree.size().y * k_leaf, octree.size().z * k_leaf};
   Octree::Cursor cursor;
   std::vector<double> error;
   while (error.size() < 20000) {
-    const Vec3 p = low + Vec3{random.uniform(0, size.x), random.uniform(0, size.y), random.uniform(0, size.z)};
+    const Vec3 p =
+        low + Vec3{random.uniform(0, size.x), random.uniform(0, size.y), random.uniform(0, size.z)};
     const auto s = octree.sample(p, cursor);
     if (std::fabs(s.distance_mm) > 0.1 || length(s.gradient) < 0.9) continue;
     const Vec3 foot = p - s.gradient * (s.distance_mm / dot(s.gradient, s.gradient));
     const double h = 1e-4;
-    const Vec3 g = Vec3{f(foot + Vec3{h, 0, 0}) - f(foot - Vec3{h, 0, 0}), f(foot + Vec3{0, h, 0}) - f(foot - Vec3{0, h, 0}),
+    const Vec3 g = Vec3{f(foot + Vec3{h, 0, 0}) - f(foot - Vec3{h, 0, 0}),
+                        f(foot + Vec3{0, h, 0}) - f(foot - Vec3{0, h, 0}),
                         f(foot + Vec3{0, 0, h}) - f(foot - Vec3{0, 0, h})} /
                    (2 * h);
     error.push_back(std::fabs(f(foot)) / length(g));
   }
   std::sort(error.begin(), error.end());
-  std::cout << TypeParam::k_name << ", surface error, um: median " << 1e3 * error[10000] << ", 95 % " << 1e3 * error[19000] << ", 99 % "
-            << 1e3 * error[19800] << '\n';
+  std::cout << TypeParam::k_name << ", surface error, um: median " << 1e3 * error[10000]
+            << ", 95 % " << 1e3 * error[19000] << ", 99 % " << 1e3 * error[19800] << '\n';
   EXPECT_LT(error[10000], 0.002);
   EXPECT_LT(error[19000], 0.012);  // leaf 0.1 mm; four times less at 0.05 mm
 }
@@ -138,12 +143,16 @@ TYPED_TEST(FormulaTeeth, AreNoNearerToTheirZeroThanTheySay) {
   using Formula = typename TypeParam::Formula;
   const Formula formula(coarse<TypeParam>());
   const Octree& octree = tooth<TypeParam>().octree;
-  const Vec3 low = octree.origin_mm(), size{octree.size().x * k_leaf, octree.size().y * k_leaf, octree.size().z * k_leaf};
+  const Vec3 low = octree.origin_mm(),
+             size{octree.size().x * k_leaf, octree.size().y * k_leaf, octree.size().z * k_leaf};
   double steepest[3] = {};
   for (int i = 0; i < 600000; ++i) {
-    const Vec3 p = low + Vec3{random.uniform(0, size.x), random.uniform(0, size.y), random.uniform(0, size.z)};
+    const Vec3 p =
+        low + Vec3{random.uniform(0, size.x), random.uniform(0, size.y), random.uniform(0, size.z)};
     const double away_mm = random.uniform(0.05, 0.5);
-    const Vec3 q = p + normalized(Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}) * away_mm;
+    const Vec3 q =
+        p + normalized(Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}) *
+                away_mm;
     const auto ask = [&](double& most, auto f) {
       const double here = f(p), there = f(q);
       if ((here < 0) != (there < 0)) most = std::max(most, std::fabs(here) / away_mm);
@@ -153,13 +162,15 @@ TYPED_TEST(FormulaTeeth, AreNoNearerToTheirZeroThanTheySay) {
     ask(steepest[1], [&](Vec3 x) { return formula.pulp(x); });
     ask(steepest[2], [&](Vec3 x) { return formula.core(x); });
   }
-  std::cout << TypeParam::k_name << ", steepest way to the zero: outside " << steepest[0] << ", pulp " << steepest[1] << ", core " << steepest[2]
-            << '\n';
+  std::cout << TypeParam::k_name << ", steepest way to the zero: outside " << steepest[0]
+            << ", pulp " << steepest[1] << ", core " << steepest[2] << '\n';
   for (const double s : steepest) EXPECT_LE(s, Formula::k_steepest);
   EXPECT_GT(steepest[0], 0.9) << "the zero was never crossed";
 }
 
-TYPED_TEST(FormulaTeeth, GiveTheSameBytesEveryTime) { EXPECT_EQ(tooth_hash(TypeParam::make(coarse<TypeParam>())), tooth_hash(tooth<TypeParam>())); }
+TYPED_TEST(FormulaTeeth, GiveTheSameBytesEveryTime) {
+  EXPECT_EQ(tooth_hash(TypeParam::make(coarse<TypeParam>())), tooth_hash(tooth<TypeParam>()));
+}
 
 TYPED_TEST(FormulaTeeth, RefuseWhatIsOutOfRange) {
   auto shape = coarse<TypeParam>();

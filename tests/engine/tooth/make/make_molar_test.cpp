@@ -47,7 +47,8 @@ TEST(MakeMolar, PulpIsOneBodyWithTheChosenCanalsAtMidRoot) {
   }
 }
 
-// Straight down from the central fossa: enamel, dentin, a chamber 1.5-2 mm high, a floor, the furcation.
+// Straight down from the central fossa: enamel, dentin, a chamber 1.5-2 mm high, a floor, the
+// furcation.
 TEST(MakeMolar, ChamberAndFurcationLieWhereTheyShould) {
   std::vector<std::pair<std::uint8_t, double>> layers;  // tissue, top z
   for (double z = 4.0; z > -17; z -= 0.01) {
@@ -81,12 +82,14 @@ TEST(MakeMolar, OcclusalEnamelIsOneToTwoAndAHalfMillimetresThick) {
         ASSERT_EQ(grid.tissue[i], k_enamel);
         ASSERT_GE(nearest[i], 0);
         const auto n = static_cast<std::int32_t>(nearest[i]);
-        const IVec3 at{n % grid.size.x, n / grid.size.x % grid.size.y, n / (grid.size.x * grid.size.y)};
+        const IVec3 at{n % grid.size.x, n / grid.size.x % grid.size.y,
+                       n / (grid.size.x * grid.size.y)};
         thick.push_back(length(grid.centre_mm(at) - p));
         break;
       }
   std::sort(thick.begin(), thick.end());
-  std::cout << "occlusal enamel " << thick.front() << " to " << thick.back() << " mm, median " << thick[thick.size() / 2] << '\n';
+  std::cout << "occlusal enamel " << thick.front() << " to " << thick.back() << " mm, median "
+            << thick[thick.size() / 2] << '\n';
   EXPECT_GE(thick.front(), 0.9);
   EXPECT_LE(thick.back(), 2.6);
 }
@@ -101,13 +104,16 @@ TEST(Periodontium, SurroundsTheRootsAndChangesNothingElse) {
   MolarShape bare = coarse();
   bare.periodontium_mm = 0;
   const Tooth without = make_molar(bare);
-  for (const std::uint8_t id : {k_enamel, k_dentin, k_pulp}) EXPECT_EQ(without.octree.count_leaves()[id], molar().octree.count_leaves()[id]);
+  for (const std::uint8_t id : {k_enamel, k_dentin, k_pulp})
+    EXPECT_EQ(without.octree.count_leaves()[id], molar().octree.count_leaves()[id]);
   EXPECT_EQ(without.octree.count_leaves()[k_periodontium], 0u);
-  // Every periodontium leaf is air without it, and dentin is its nearest hard tissue, within 1 mm (brute force on a sample).
+  // Every periodontium leaf is air without it, and dentin is its nearest hard tissue, within 1 mm
+  // (brute force on a sample).
   Random random(testing_tooth::drawn_seed("Periodontium.SurroundsTheRootsAndChangesNothingElse"));
   std::vector<Vec3> supported;
   molar().octree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
-    if (t == k_periodontium) supported.push_back(molar().octree.centre_mm(at + IVec3{edge / 2, edge / 2, edge / 2}));
+    if (t == k_periodontium)
+      supported.push_back(molar().octree.centre_mm(at + IVec3{edge / 2, edge / 2, edge / 2}));
   });
   ASSERT_FALSE(supported.empty());
   for (int i = 0; i < 300; ++i) {

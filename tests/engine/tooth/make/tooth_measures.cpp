@@ -1,4 +1,5 @@
-// The list of measures of each kind of tooth, taken with the meter: what docs/teeth.md holds beside published figures.
+// The list of measures of each kind of tooth, taken with the meter: what docs/teeth.md holds beside
+// published figures.
 #include <algorithm>
 #include <cmath>
 
@@ -8,28 +9,40 @@
 namespace cavum::testing_tooth {
 namespace {
 
-/// What all kinds have: crown, neck, root, heights of contour. `high_z`: the tip that crown height goes by.
+/// What all kinds have: crown, neck, root, heights of contour. `high_z`: the tip that crown height
+/// goes by.
 struct Common {
   double buccal_cej, lingual_cej, mesial_cej, distal_cej;
 };
 
 Common add_common(const ToothMeter& t, double tip_z, Measures& m) {
-  const Common c{t.cervical_z('y', 1), t.cervical_z('y', -1), t.cervical_z('x', 1), t.cervical_z('x', -1)};
+  const Common c{t.cervical_z('y', 1), t.cervical_z('y', -1), t.cervical_z('x', 1),
+                 t.cervical_z('x', -1)};
   const double up = c.buccal_cej + 0.2, top = tip_z + 1;
   const auto mesial = t.outermost('x', 1, up, top), distal = t.outermost('x', -1, up, top);
   const auto buccal = t.outermost('y', 1, up, top), lingual = t.outermost('y', -1, up, top);
-  const auto neck = [&](char towards, double sign, double z) { return t.outermost(towards, sign, z - 0.45, z - 0.25, 0.0, 0.6).first; };
+  const auto neck = [&](char towards, double sign, double z) {
+    return t.outermost(towards, sign, z - 0.45, z - 0.25, 0.0, 0.6).first;
+  };
   m.emplace_back("crown width mesiodistal", mesial.first + distal.first);
   m.emplace_back("crown width buccolingual", buccal.first + lingual.first);
   m.emplace_back("crown height buccal", tip_z - c.buccal_cej);
-  m.emplace_back("neck width mesiodistal", neck('x', 1, c.mesial_cej) + neck('x', -1, c.distal_cej));
-  m.emplace_back("neck width buccolingual", neck('y', 1, c.buccal_cej) + neck('y', -1, c.lingual_cej));
-  m.emplace_back("rise of the cervical line mesial", c.mesial_cej - std::min(c.buccal_cej, c.lingual_cej));
-  m.emplace_back("rise of the cervical line distal", c.distal_cej - std::min(c.buccal_cej, c.lingual_cej));
-  m.emplace_back("height of contour buccal, share of the crown", (buccal.second - c.buccal_cej) / (tip_z - c.buccal_cej));
-  m.emplace_back("height of contour lingual, share of the crown", (lingual.second - c.lingual_cej) / (tip_z - c.lingual_cej));
-  m.emplace_back("contact mesial, share of the crown", (mesial.second - c.buccal_cej) / (tip_z - c.buccal_cej));
-  m.emplace_back("contact distal, share of the crown", (distal.second - c.buccal_cej) / (tip_z - c.buccal_cej));
+  m.emplace_back("neck width mesiodistal",
+                 neck('x', 1, c.mesial_cej) + neck('x', -1, c.distal_cej));
+  m.emplace_back("neck width buccolingual",
+                 neck('y', 1, c.buccal_cej) + neck('y', -1, c.lingual_cej));
+  m.emplace_back("rise of the cervical line mesial",
+                 c.mesial_cej - std::min(c.buccal_cej, c.lingual_cej));
+  m.emplace_back("rise of the cervical line distal",
+                 c.distal_cej - std::min(c.buccal_cej, c.lingual_cej));
+  m.emplace_back("height of contour buccal, share of the crown",
+                 (buccal.second - c.buccal_cej) / (tip_z - c.buccal_cej));
+  m.emplace_back("height of contour lingual, share of the crown",
+                 (lingual.second - c.lingual_cej) / (tip_z - c.lingual_cej));
+  m.emplace_back("contact mesial, share of the crown",
+                 (mesial.second - c.buccal_cej) / (tip_z - c.buccal_cej));
+  m.emplace_back("contact distal, share of the crown",
+                 (distal.second - c.buccal_cej) / (tip_z - c.buccal_cej));
   return c;
 }
 
@@ -80,7 +93,8 @@ double hard_end_z(const std::vector<std::pair<std::uint8_t, double>>& column) {
 Measures measure_molar(const Tooth& tooth) {
   const ToothMeter t(tooth);
   Measures m;
-  const Vec3 mb = t.highest(1.0, 4.0, 1.3, 4.2), db = t.highest(-2.4, 0.2, 1.6, 4.2), ml = t.highest(0.9, 4.0, -4.6, -1.5);
+  const Vec3 mb = t.highest(1.0, 4.0, 1.3, 4.2), db = t.highest(-2.4, 0.2, 1.6, 4.2),
+             ml = t.highest(0.9, 4.0, -4.6, -1.5);
   const Vec3 dl = t.highest(-4.0, -0.8, -4.6, -1.5);
   const Vec3 d = t.highest(-4.9, -3.0, 0.4, 2.6);
   const Common c = add_common(t, mb.z, m);
@@ -99,16 +113,19 @@ Measures measure_molar(const Tooth& tooth) {
   m.emplace_back("enamel buccal, half way up", t.wall_enamel_mm('y', 1, half, 2.0));
   m.emplace_back("enamel lingual, half way up", t.wall_enamel_mm('y', -1, half, 2.0));
   m.emplace_back("enamel mesial, at the contact", t.wall_enamel_mm('x', 1, half + 0.8, 0.0));
-  m.emplace_back("enamel buccal, 1 mm above the cervical line", t.wall_enamel_mm('y', 1, c.buccal_cej + 1.0, 2.0));
+  m.emplace_back("enamel buccal, 1 mm above the cervical line",
+                 t.wall_enamel_mm('y', 1, c.buccal_cej + 1.0, 2.0));
   const auto middle = t.column(0.1, 0.0);
-  const double roof = first_z(middle, k_pulp), floor = pulp_end_z(middle), furcation = hard_end_z(middle);
+  const double roof = first_z(middle, k_pulp), floor = pulp_end_z(middle),
+               furcation = hard_end_z(middle);
   m.emplace_back("buccal tip to chamber roof", mb.z - roof);
   m.emplace_back("buccal tip to chamber floor", mb.z - floor);
   m.emplace_back("buccal tip to furcation", mb.z - furcation);
   m.emplace_back("chamber height", roof - floor);
   m.emplace_back("chamber floor to furcation", floor - furcation);
   m.emplace_back("chamber roof to furcation", roof - furcation);
-  m.emplace_back("chamber roof over the proximal cervical line", roof - 0.5 * (c.mesial_cej + c.distal_cej));
+  m.emplace_back("chamber roof over the proximal cervical line",
+                 roof - 0.5 * (c.mesial_cej + c.distal_cej));
   m.emplace_back("fossa to chamber roof", first_z(middle, k_enamel) - roof);
   m.emplace_back("dentin over the chamber roof", first_z(middle, k_dentin) - roof);
   m.emplace_back("tip MB to the nearest pulp", t.to_pulp_mm(mb));
@@ -121,14 +138,17 @@ Measures measure_molar(const Tooth& tooth) {
   m.emplace_back("canals", static_cast<double>(mouths.size()));
   if (mouths.size() == 3) {
     m.emplace_back("mouths of the mesial canals, apart", apart(mouths[1], mouths[2]));
-    m.emplace_back("mouths of distal and mesial canals, apart", 0.5 * (apart(mouths[0], mouths[1]) + apart(mouths[0], mouths[2])));
-    m.emplace_back("mesial canal at its mouth, mesiodistal", 0.5 * (mouths[1].mesiodistal_mm + mouths[2].mesiodistal_mm));
+    m.emplace_back("mouths of distal and mesial canals, apart",
+                   0.5 * (apart(mouths[0], mouths[1]) + apart(mouths[0], mouths[2])));
+    m.emplace_back("mesial canal at its mouth, mesiodistal",
+                   0.5 * (mouths[1].mesiodistal_mm + mouths[2].mesiodistal_mm));
     m.emplace_back("distal canal at its mouth, buccolingual", mouths[0].buccolingual_mm);
   }
   const auto below = t.canals(furcation - 2.0);
   if (below.size() == 3)
     m.emplace_back("mesial canals to the furcal wall, 2 mm below the furcation",
-                   0.5 * (t.to_outside_mm(below[1], furcation - 2.0) + t.to_outside_mm(below[2], furcation - 2.0)));
+                   0.5 * (t.to_outside_mm(below[1], furcation - 2.0) +
+                          t.to_outside_mm(below[2], furcation - 2.0)));
   const auto deep = t.canals(t.apex_z(0.0, 9.0) + 4.0);
   if (!deep.empty()) {
     m.emplace_back("mesial canals 4 mm above the apex, mesiodistal", deep.back().mesiodistal_mm);
@@ -155,7 +175,8 @@ Measures measure_premolar(const Tooth& tooth) {
   m.emplace_back("enamel lingual, half way up", t.wall_enamel_mm('y', -1, half, 0.0));
   m.emplace_back("enamel mesial, at the contact", t.wall_enamel_mm('x', 1, half + 0.8, 0.0));
   m.emplace_back("enamel distal, at the contact", t.wall_enamel_mm('x', -1, half + 0.6, 0.0));
-  m.emplace_back("enamel buccal, 1 mm above the cervical line", t.wall_enamel_mm('y', 1, c.buccal_cej + 1.0, 0.0));
+  m.emplace_back("enamel buccal, 1 mm above the cervical line",
+                 t.wall_enamel_mm('y', 1, c.buccal_cej + 1.0, 0.0));
   const auto middle = t.column(0.0, 0.0);
   const double roof = first_z(middle, k_pulp);
   m.emplace_back("tips to chamber roof", 0.5 * (b.z + l.z) - roof);
@@ -173,7 +194,8 @@ Measures measure_premolar(const Tooth& tooth) {
   m.emplace_back("canal at half the root, buccolingual", halfway.front().buccolingual_mm);
   const double neck_z = 0.5 * (c.buccal_cej + apex);
   m.emplace_back("root width at half its length, buccolingual",
-                 t.outermost('y', 1, neck_z - 0.1, neck_z + 0.1).first + t.outermost('y', -1, neck_z - 0.1, neck_z + 0.1).first);
+                 t.outermost('y', 1, neck_z - 0.1, neck_z + 0.1).first +
+                     t.outermost('y', -1, neck_z - 0.1, neck_z + 0.1).first);
   return m;
 }
 
@@ -186,21 +208,30 @@ Measures measure_incisor(const Tooth& tooth) {
   m.emplace_back("root", c.buccal_cej - apex);
   m.emplace_back("root over crown", (c.buccal_cej - apex) / (edge.z - c.buccal_cej));
   const auto thick = [&](double z) {
-    return t.outermost('y', 1, z - 0.1, z + 0.1, 0.0, 0.3).first + t.outermost('y', -1, z - 0.1, z + 0.1, 0.0, 0.3).first;
+    return t.outermost('y', 1, z - 0.1, z + 0.1, 0.0, 0.3).first +
+           t.outermost('y', -1, z - 0.1, z + 0.1, 0.0, 0.3).first;
   };
   m.emplace_back("thickness 2 mm below the edge", thick(edge.z - 2.0));
   m.emplace_back("thickness at half the crown", thick(0.5 * (edge.z + c.buccal_cej)));
   const double fossa = edge.z - 0.35 * (edge.z - c.buccal_cej);
   const auto lingual_y = [&](double from_x, double to_x) {
-    return t.outermost('y', -1, fossa - 0.1, fossa + 0.1, 0.5 * (from_x + to_x), 0.5 * (to_x - from_x)).first;
+    return t
+        .outermost('y', -1, fossa - 0.1, fossa + 0.1, 0.5 * (from_x + to_x), 0.5 * (to_x - from_x))
+        .first;
   };
-  m.emplace_back("depth of the lingual fossa below its ridges", std::min(lingual_y(1.5, 4.0), lingual_y(-4.0, -1.5)) - lingual_y(-0.3, 0.3));
+  m.emplace_back("depth of the lingual fossa below its ridges",
+                 std::min(lingual_y(1.5, 4.0), lingual_y(-4.0, -1.5)) - lingual_y(-0.3, 0.3));
   m.emplace_back("enamel at the edge", t.enamel_mm(t.highest(-0.2, 0.2, -1.5, 2.5)));
-  m.emplace_back("enamel labial, 1 mm above the cervical line", t.wall_enamel_mm('y', 1, c.buccal_cej + 1.0, 0.0));
-  m.emplace_back("enamel labial, 3 mm above the cervical line", t.wall_enamel_mm('y', 1, c.buccal_cej + 3.0, 0.0));
-  m.emplace_back("enamel labial, 5 mm above the cervical line", t.wall_enamel_mm('y', 1, c.buccal_cej + 5.0, 0.0));
-  m.emplace_back("enamel lingual, 5 mm above the cervical line", t.wall_enamel_mm('y', -1, c.lingual_cej + 5.0, 0.0));
-  m.emplace_back("enamel mesial, 2.5 mm below the edge", t.wall_enamel_mm('x', 1, edge.z - 2.5, edge.y));
+  m.emplace_back("enamel labial, 1 mm above the cervical line",
+                 t.wall_enamel_mm('y', 1, c.buccal_cej + 1.0, 0.0));
+  m.emplace_back("enamel labial, 3 mm above the cervical line",
+                 t.wall_enamel_mm('y', 1, c.buccal_cej + 3.0, 0.0));
+  m.emplace_back("enamel labial, 5 mm above the cervical line",
+                 t.wall_enamel_mm('y', 1, c.buccal_cej + 5.0, 0.0));
+  m.emplace_back("enamel lingual, 5 mm above the cervical line",
+                 t.wall_enamel_mm('y', -1, c.lingual_cej + 5.0, 0.0));
+  m.emplace_back("enamel mesial, 2.5 mm below the edge",
+                 t.wall_enamel_mm('x', 1, edge.z - 2.5, edge.y));
   double pulp_top = 0.0;
   for (double z = edge.z; z > apex && pulp_top == 0.0; z -= 0.05)
     if (!t.canals(z).empty()) pulp_top = z;
@@ -215,8 +246,10 @@ Measures measure_incisor(const Tooth& tooth) {
   m.emplace_back("canals", static_cast<double>(halfway.size()));
   m.emplace_back("canal at half the root, mesiodistal", halfway.front().mesiodistal_mm);
   const double neck_z = c.buccal_cej + 3.0;
-  m.emplace_back("lingual surface to the pulp, at the cingulum",
-                 t.to_pulp_mm({0.0, -t.outermost('y', -1, neck_z - 0.1, neck_z + 0.1, 0.0, 0.3).first, neck_z}));
+  m.emplace_back(
+      "lingual surface to the pulp, at the cingulum",
+      t.to_pulp_mm(
+          {0.0, -t.outermost('y', -1, neck_z - 0.1, neck_z + 0.1, 0.0, 0.3).first, neck_z}));
   return m;
 }
 

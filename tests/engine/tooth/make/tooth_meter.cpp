@@ -7,7 +7,8 @@
 
 namespace cavum::testing_tooth {
 
-ToothMeter::ToothMeter(const Tooth& tooth) : octree_(tooth.octree), grid_(tooth.octree.to_grid()), low_(grid_.size), high_{-1, -1, -1} {
+ToothMeter::ToothMeter(const Tooth& tooth)
+    : octree_(tooth.octree), grid_(tooth.octree.to_grid()), low_(grid_.size), high_{-1, -1, -1} {
   for (std::int32_t z = 0; z < grid_.size.z; ++z)
     for (std::int32_t y = 0; y < grid_.size.y; ++y)
       for (std::int32_t x = 0; x < grid_.size.x; ++x) {
@@ -53,7 +54,8 @@ double ToothMeter::cervical_z(char towards, double sign) const {
   return 0.0;
 }
 
-std::pair<double, double> ToothMeter::outermost(char towards, double sign, double from_z, double to_z, double at, double within) const {
+std::pair<double, double> ToothMeter::outermost(char towards, double sign, double from_z,
+                                                double to_z, double at, double within) const {
   std::pair<double, double> best{-1e9, 0.0};
   double sum = 0.0;
   int many = 0;
@@ -62,7 +64,8 @@ std::pair<double, double> ToothMeter::outermost(char towards, double sign, doubl
       for (std::int32_t x = low_.x; x <= high_.x; ++x) {
         const Vec3 p = grid_.centre_mm({x, y, z});
         if (p.z < from_z || p.z > to_z || !hard({x, y, z})) continue;
-        const double out = (towards == 'x' ? p.x : p.y) * sign + 0.5 * grid_.leaf_mm, across = towards == 'x' ? p.y : p.x;
+        const double out = (towards == 'x' ? p.x : p.y) * sign + 0.5 * grid_.leaf_mm,
+                     across = towards == 'x' ? p.y : p.x;
         if (std::fabs(across - at) > within || out < best.first - 1e-9) continue;
         if (out > best.first + 1e-9) sum = 0.0, many = 0;
         best.first = std::max(best.first, out);
@@ -84,10 +87,12 @@ double ToothMeter::nearest(Vec3 from, std::uint8_t tissue) const {
         const bool face = std::abs(z) == r || std::abs(y) == r;
         for (int x = -r; x <= r; x += face || r == 0 ? 1 : 2 * r) {
           const IVec3 at = middle + IVec3{x, y, z};
-          if (grid_.inside(at) && grid_.tissue[grid_.index(at)] == tissue) best = std::min(best, length(grid_.centre_mm(at) - from));
+          if (grid_.inside(at) && grid_.tissue[grid_.index(at)] == tissue)
+            best = std::min(best, length(grid_.centre_mm(at) - from));
         }
       }
-  return best - 0.5 * grid_.leaf_mm;  // the tissue begins half a leaf before its first leaf's centre
+  return best -
+         0.5 * grid_.leaf_mm;  // the tissue begins half a leaf before its first leaf's centre
 }
 
 double ToothMeter::enamel_mm(Vec3 surface) const { return nearest(surface, k_dentin); }
@@ -104,7 +109,8 @@ double ToothMeter::horn_to_enamel_mm(double x, double y) const {
     for (std::int32_t j = low_.y; j <= high_.y; ++j)
       for (std::int32_t i = low_.x; i <= high_.x; ++i) {
         const Vec3 p = grid_.centre_mm({i, j, z});
-        if (grid_.tissue[grid_.index({i, j, z})] == k_pulp && std::fabs(p.x - x) < 1.5 && std::fabs(p.y - y) < 1.5)
+        if (grid_.tissue[grid_.index({i, j, z})] == k_pulp && std::fabs(p.x - x) < 1.5 &&
+            std::fabs(p.y - y) < 1.5)
           return nearest(p + Vec3{0, 0, 0.5 * grid_.leaf_mm}, k_enamel);
       }
   return -1.0;
@@ -121,13 +127,15 @@ std::vector<std::pair<std::uint8_t, double>> ToothMeter::column(double x, double
 
 std::vector<CanalSlice> ToothMeter::canals(double z) const {
   const std::int32_t level = octree_.leaf_at({0, 0, z}).z;
-  std::vector<std::uint8_t> seen(static_cast<std::size_t>(grid_.size.x) * static_cast<std::size_t>(grid_.size.y));
+  std::vector<std::uint8_t> seen(static_cast<std::size_t>(grid_.size.x) *
+                                 static_cast<std::size_t>(grid_.size.y));
   std::vector<CanalSlice> found;
   for (std::int32_t j = low_.y; j <= high_.y; ++j)
     for (std::int32_t i = low_.x; i <= high_.x; ++i) {
       std::vector<IVec3> body;
       const auto enter = [&](IVec3 at) {
-        const auto flat = static_cast<std::size_t>(at.y) * static_cast<std::size_t>(grid_.size.x) + static_cast<std::size_t>(at.x);
+        const auto flat = static_cast<std::size_t>(at.y) * static_cast<std::size_t>(grid_.size.x) +
+                          static_cast<std::size_t>(at.x);
         if (!grid_.inside(at) || seen[flat] || grid_.tissue[grid_.index(at)] != k_pulp) return;
         seen[flat] = 1;
         body.push_back(at);
@@ -135,7 +143,8 @@ std::vector<CanalSlice> ToothMeter::canals(double z) const {
       enter({i, j, level});
       for (std::size_t n = 0; n < body.size(); ++n) {
         const IVec3 at = body[n];
-        for (const IVec3 s : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}}) enter(at + s);
+        for (const IVec3 s : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}})
+          enter(at + s);
       }
       if (body.size() < 3) continue;
       Vec3 low{1e9, 1e9, 0}, high{-1e9, -1e9, 0}, sum;
@@ -146,9 +155,11 @@ std::vector<CanalSlice> ToothMeter::canals(double z) const {
         sum = sum + p;
       }
       const double n = static_cast<double>(body.size());
-      found.push_back({sum.x / n, sum.y / n, high.x - low.x + grid_.leaf_mm, high.y - low.y + grid_.leaf_mm});
+      found.push_back(
+          {sum.x / n, sum.y / n, high.x - low.x + grid_.leaf_mm, high.y - low.y + grid_.leaf_mm});
     }
-  std::sort(found.begin(), found.end(), [](const CanalSlice& a, const CanalSlice& b) { return a.x_mm < b.x_mm; });
+  std::sort(found.begin(), found.end(),
+            [](const CanalSlice& a, const CanalSlice& b) { return a.x_mm < b.x_mm; });
   return found;
 }
 
@@ -176,7 +187,8 @@ ToothMeter::Valley ToothMeter::valley(double x, double low_y, double high_y) con
     const double z = surface_z(x, y);
     if (z < v.z_mm) v.y_mm = y, v.z_mm = z;
   }
-  const double left = (surface_z(x, v.y_mm - 0.25) - v.z_mm) / 0.25, right = (surface_z(x, v.y_mm + 0.25) - v.z_mm) / 0.25;
+  const double left = (surface_z(x, v.y_mm - 0.25) - v.z_mm) / 0.25,
+               right = (surface_z(x, v.y_mm + 0.25) - v.z_mm) / 0.25;
   v.angle_deg = 180.0 - (std::atan(left) + std::atan(right)) * 180.0 / k_pi;
   v.depth_mm = 0.5 * (surface_z(x, v.y_mm - 0.5) + surface_z(x, v.y_mm + 0.5)) - v.z_mm;
   return v;

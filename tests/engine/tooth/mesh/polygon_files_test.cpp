@@ -13,10 +13,13 @@ namespace {
 
 using testing_basics::bytes_of;
 
-const std::vector<std::vector<std::uint32_t>> k_sides{{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+const std::vector<std::vector<std::uint32_t>> k_sides{{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                                      {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
 Vec3 corner(std::uint32_t i) { return {2.5 * (i & 1), 2.5 * (i >> 1 & 1), 2.5 * (i >> 2)}; }
 
-std::string words(const Vec3& p) { return std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z); }
+std::string words(const Vec3& p) {
+  return std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z);
+}
 
 void expect_cube(const Polygons& read) {
   ASSERT_EQ(read.corners_mm.size(), 8u);
@@ -80,7 +83,8 @@ TEST(PolygonFiles, ObjWithNumbersFromTheBeginningOrTheEnd) {
     from_end += "f";
     for (const auto i : s) {
       text += " " + std::to_string(i + 1) + "/1/2";
-      from_end += std::string(i == s[2] ? " \\\n" : " ") + std::to_string(static_cast<int>(i) - 8) + "//1";
+      from_end +=
+          std::string(i == s[2] ? " \\\n" : " ") + std::to_string(static_cast<int>(i) - 8) + "//1";
     }
     text += "  # side\n";
     from_end += "\n";
@@ -109,10 +113,17 @@ TEST(PolygonFiles, WhatIsNoneIsNamedWithItsPlace) {
     const char* place;
   } cases[] = {
       {read_ply, "ply\nformat ascii 1.0\nproperty float x\nend_header\n", inconsistent, "a:3"},
-      {read_ply, "ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n", inconsistent, "a"},
-      {read_ply, "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n1\n", inconsistent, "a"},
-      {read_ply, "ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty double x\nend_header\n1", truncated, "a"},
-      {read_ply, "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_index\nend_header\n3 0 1 2\n", inconsistent, "a"},
+      {read_ply, "ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n", inconsistent,
+       "a"},
+      {read_ply,
+       "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n1\n",
+       inconsistent, "a"},
+      {read_ply,
+       "ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty double x\nend_header\n1",
+       truncated, "a"},
+      {read_ply,
+       "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_index\nend_header\n3 0 1 2\n",
+       inconsistent, "a"},
       {read_ply, "ply\nelement vertex 0\n", truncated, "a"},
       {read_obj, "v 0 0 0\nf 1 -2 1\n", malformed, "a:2"},
       {read_obj, "v 0 zero 0\n", malformed, "a:1"},
@@ -122,7 +133,8 @@ TEST(PolygonFiles, WhatIsNoneIsNamedWithItsPlace) {
       {read_off, "OFF BINARY\n", unsupported, "a"},
   };
   for (const auto& c : cases) {
-    const auto error = testing_basics::thrown_by([&] { static_cast<void>(c.read(bytes_of(c.text), "a")); });
+    const auto error =
+        testing_basics::thrown_by([&] { static_cast<void>(c.read(bytes_of(c.text), "a")); });
     EXPECT_EQ(testing_basics::code_of(error), c.code) << c.text;
     EXPECT_EQ(testing_basics::place_of(error), c.place) << c.text;
   }

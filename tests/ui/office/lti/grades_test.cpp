@@ -1,4 +1,5 @@
-// Scores that go to a learning platform: released ones alone, once each, corrected and taken back as the ledger says.
+// Scores that go to a learning platform: released ones alone, once each, corrected and taken back
+// as the ledger says.
 #include "engine/base/hash.h"
 #include "engine/base/json_fields.h"
 #include "grading/records/decision.h"
@@ -29,13 +30,18 @@ class Grades : public testing::Test {
       ASSERT_EQ(filed["state"], "filed") << filed;
       auto ledger = opened_.school().ledger();
       const auto& session = ledger.registry().sessions.back();
-      const std::string number = records::Identities(opened_.school().places().identities()).of_pseudonym(session.candidate)->id;
+      const std::string number = records::Identities(opened_.school().places().identities())
+                                     .of_pseudonym(session.candidate)
+                                     ->id;
       sessions_[number] = session.seq;
       hashes_[number] = session.file_sha256;
       result_ = *session.result;
     }
   }
-  void TearDown() override { EXPECT_EQ(platform_.control()["violations"], json::array()) << "what this office sent and a standard refuses"; }
+  void TearDown() override {
+    EXPECT_EQ(platform_.control()["violations"], json::array())
+        << "what this office sent and a standard refuses";
+  }
 
   void release(const std::vector<std::string>& numbers) {
     records::ReleaseCommand wish;
@@ -44,7 +50,8 @@ class Grades : public testing::Test {
     auto ledger = opened_.school().ledger();
     ASSERT_EQ(records::release_results(ledger, wish).results.size(), numbers.size());
   }
-  /// Once nothing waits any more, or something keeps it; `again`: an officer has pressed the button.
+  /// Once nothing waits any more, or something keeps it; `again`: an officer has pressed the
+  /// button.
   json settled(bool again = true) {
     if (again) {
       EXPECT_EQ(officer_.post("/api/lti/send", {}).status, 200);
@@ -53,12 +60,16 @@ class Grades : public testing::Test {
     json progress;
     for (int i = 0; i < 150; ++i) {
       progress = officer_.get("/api/lti").json()["progress"];
-      if (!progress.empty() && (progress[0]["waiting"] == 0 || !text_in(progress[0], "trouble").empty())) break;
+      if (!progress.empty() &&
+          (progress[0]["waiting"] == 0 || !text_in(progress[0], "trouble").empty()))
+        break;
       std::this_thread::sleep_for(100ms);
     }
     return progress.empty() ? json::object() : progress[0];
   }
-  [[nodiscard]] std::vector<records::PassbackEntry> entries() const { return records::read_registry(opened_.content()).passbacks; }
+  [[nodiscard]] std::vector<records::PassbackEntry> entries() const {
+    return records::read_registry(opened_.content()).passbacks;
+  }
   Heard come(const std::string& who) { return Browser{opened_.port(), &platform_}.launch(who); }
 
   Opened opened_;
@@ -82,11 +93,13 @@ TEST_F(Grades, AreSentOnceWhenReleasedAndCorrectedAndTakenBack) {
   ASSERT_EQ(state["posts"].size(), 1U) << state;
   EXPECT_EQ(state["items"].size(), 1U);
   EXPECT_EQ(state["items"][0]["resourceId"], "block_cavity");
-  EXPECT_NEAR(state["results"]["u-4711"]["score"].get<double>(), result_["score"]["points"].get<double>(), 1e-6);
+  EXPECT_NEAR(state["results"]["u-4711"]["score"].get<double>(),
+              result_["score"]["points"].get<double>(), 1e-6);
   ASSERT_EQ(entries().size(), 1U);
   EXPECT_EQ(entries()[0].session, sessions_["4711"]);
   EXPECT_TRUE(entries()[0].accepted());
-  EXPECT_EQ(opened_.content().entries.back().text.find("u-4711"), std::string::npos) << "no person in the ledger";
+  EXPECT_EQ(opened_.content().entries.back().text.find("u-4711"), std::string::npos)
+      << "no person in the ledger";
 
   ASSERT_EQ(come("Learner:4712").status, 303);
   settled();
@@ -140,7 +153,8 @@ TEST_F(Grades, AReviewIsNeverSentAsAMark) {
   EXPECT_EQ(state["posts"][0]["gradingProgress"], "PendingManual");
   EXPECT_FALSE(state["posts"][0].contains("scoreGiven"));
   auto now = opened_.school().ledger();
-  records::enter_decision(now, sessions_["4711"], {grading::Verdict::pass, "Dr Stein", "the wall is thick enough"});
+  records::enter_decision(now, sessions_["4711"],
+                          {grading::Verdict::pass, "Dr Stein", "the wall is thick enough"});
   release({"4711"});
   settled();
   state = platform_.control();
@@ -198,10 +212,13 @@ TEST_F(Grades, FindTheirColumnOnALaterPageAndOnlyWhereThePlatformIs) {
   release({"4711"});
   settled();
   ASSERT_EQ(platform_.control()["items"].size(), 1U);
-  std::filesystem::remove(opened_.home() + "/" + opened_.id() + "/courses.json");  // as another office would come
+  std::filesystem::remove(opened_.home() + "/" + opened_.id() +
+                          "/courses.json");  // as another office would come
   platform_.control({{"lineitems", "https://169.254.169.254/course/7/lineitems"}});
   ASSERT_EQ(come("Learner:4711").status, 303) << "he may look";
-  EXPECT_NE(settled()["trouble"].get<std::string>().find("https://169.254.169.254/course/7/lineitems"), std::string::npos)
+  EXPECT_NE(
+      settled()["trouble"].get<std::string>().find("https://169.254.169.254/course/7/lineitems"),
+      std::string::npos)
       << "and no score goes elsewhere";
   platform_.control({{"lineitems", ""}});
   ASSERT_EQ(come("Learner:4711").status, 303);
@@ -222,15 +239,19 @@ TEST_F(Grades, ALearnerSeesHisOwnReleasedResultAndNoneBesides) {
   EXPECT_EQ(own.status, 200);
   EXPECT_NE(own.body.find("student"), std::string::npos) << "the student's report: " << own.body;
   EXPECT_EQ(b.ask("GET", "/lti/report/" + hashes_["4712"]).status, 400) << "another's";
-  for (const char* path : {"/api/results", "/api/gradebook.csv", "/api/me", "/api/criteria.csv"}) EXPECT_EQ(b.ask("GET", path).status, 401) << path;
-  EXPECT_EQ(b.ask("GET", "/api/report/" + hashes_["4711"]).status, 401) << "the instructor's report";
+  for (const char* path : {"/api/results", "/api/gradebook.csv", "/api/me", "/api/criteria.csv"})
+    EXPECT_EQ(b.ask("GET", path).status, 401) << path;
+  EXPECT_EQ(b.ask("GET", "/api/report/" + hashes_["4711"]).status, 401)
+      << "the instructor's report";
   platform_.control({{"exam", "another_exam"}});
   Browser elsewhere{opened_.port(), &platform_};
   ASSERT_EQ(elsewhere.launch("Learner:4711").status, 303);
-  EXPECT_EQ(elsewhere.ask("GET", "/lti/result").body.find("/lti/report/"), std::string::npos) << "the link is another exam's";
+  EXPECT_EQ(elsewhere.ask("GET", "/lti/result").body.find("/lti/report/"), std::string::npos)
+      << "the link is another exam's";
   Browser nobody{opened_.port(), &platform_};
   ASSERT_EQ(nobody.launch("Learner:").status, 303);
-  EXPECT_EQ(nobody.ask("GET", "/lti/result").body.find("/lti/report/"), std::string::npos) << "the platform does not tell who comes";
+  EXPECT_EQ(nobody.ask("GET", "/lti/result").body.find("/lti/report/"), std::string::npos)
+      << "the platform does not tell who comes";
   auto ledger = opened_.school().ledger();
   records::retract_results(ledger, {sessions_["4711"]}, "wrong tooth");
   EXPECT_EQ(b.ask("GET", "/lti/report/" + hashes_["4711"]).status, 400) << "taken back";

@@ -1,4 +1,5 @@
-// Launches from a learning platform: who sees what, and what is refused. The platform is an emulator of its own (platform.py).
+// Launches from a learning platform: who sees what, and what is refused. The platform is an
+// emulator of its own (platform.py).
 #include "engine/base/hash.h"
 #include "tests/ui/office/lti/platform.h"
 #include "ui/office/lti/client.h"
@@ -20,7 +21,8 @@ class Launches : public testing::Test {
     platforms().set(platform_in(platform_->set_up()));
   }
   static void TearDownTestSuite() {
-    EXPECT_EQ(platform_->control()["violations"], json::array()) << "what this office sent and a standard refuses";
+    EXPECT_EQ(platform_->control()["violations"], json::array())
+        << "what this office sent and a standard refuses";
     delete platform_;
     delete opened_;
   }
@@ -67,11 +69,13 @@ TEST_F(Launches, AreRefusedForWhateverIsWrongInTheToken) {
       Browser b = browser();
       LtiLogins logins;
       const std::int64_t now = read_clocks().utc_ns / 1'000'000'000;
-      const LtiLogin login = logins.begin(platforms(), form_fields(b.begun("Learner:4711", attack)), now);
+      const LtiLogin login =
+          logins.begin(platforms(), form_fields(b.begun("Learner:4711", attack)), now);
       EXPECT_EQ(testing_basics::code_of([&] {
                   static_cast<void>(logins.finish(
                       platforms(), form_fields(b.form_at(login.address)), login.cookie,
-                      [&](const LtiPlatform& p, const std::string& kid) { return keys.of(p, kid); }, now));
+                      [&](const LtiPlatform& p, const std::string& kid) { return keys.of(p, kid); },
+                      now));
                 }),
                 why)
           << attack;
@@ -80,7 +84,8 @@ TEST_F(Launches, AreRefusedForWhateverIsWrongInTheToken) {
       EXPECT_FALSE(b.cookies.contains(k_visit_cookie)) << attack;
       EXPECT_FALSE(b.cookies.contains(k_cookie)) << attack;
     }
-  EXPECT_FALSE(platform_->control()["asked"].contains("/elsewhere")) << "an address in a token is not asked";
+  EXPECT_FALSE(platform_->control()["asked"].contains("/elsewhere"))
+      << "an address in a token is not asked";
 }
 
 TEST_F(Launches, AreGoodOnceAndOnlyInTheBrowserThatBeganThem) {
@@ -92,7 +97,8 @@ TEST_F(Launches, AreGoodOnceAndOnlyInTheBrowserThatBeganThem) {
   Browser changed = b;
   changed.cookies["__Host-cavum-login"][3] ^= 1;
   EXPECT_EQ(changed.ask("POST", "/lti/launch", form).status, 400);
-  EXPECT_EQ(b.ask("POST", "/lti/launch", form + "&state=" + std::string(64, '0')).status, 400) << "a field twice";
+  EXPECT_EQ(b.ask("POST", "/lti/launch", form + "&state=" + std::string(64, '0')).status, 400)
+      << "a field twice";
   EXPECT_EQ(b.ask("POST", "/lti/launch", form, {{"Content-Type", "application/json"}}).status, 415);
   EXPECT_EQ(b.ask("POST", "/lti/launch", form).status, 303);
   EXPECT_EQ(b.ask("POST", "/lti/launch", form).status, 400) << "it was used before";
@@ -112,22 +118,27 @@ TEST_F(Launches, TakeNoLongerThanTenMinutes) {
     });
   };
   EXPECT_EQ(finish(logins, now + 601), LtiError::too_late);
-  EXPECT_EQ(finish(logins, now + 599), LtiError::not_understood) << "in time its token is looked at";
+  EXPECT_EQ(finish(logins, now + 599), LtiError::not_understood)
+      << "in time its token is looked at";
   LtiLogins restarted;
-  EXPECT_EQ(finish(restarted, now), LtiError::login) << "each run of the server has a secret of its own";
+  EXPECT_EQ(finish(restarted, now), LtiError::login)
+      << "each run of the server has a secret of its own";
 }
 
 TEST_F(Launches, LeadNowhereButHere) {
   Browser b = browser();
-  const std::string right = b.begun("Learner:4711"), tool = url_encoded(opened_->address() + "/lti/launch");
+  const std::string right = b.begun("Learner:4711"),
+                    tool = url_encoded(opened_->address() + "/lti/launch");
   const auto with = [&](const std::string& target) {
     std::string out = right;
     return out.replace(out.find(tool), tool.size(), url_encoded(target));
   };
   for (const std::string& target :
-       {std::string("https://elsewhere.example/"), opened_->address() + ".elsewhere.example/lti/launch",
-        opened_->address() + "@elsewhere.example/lti/launch", opened_->address() + "/", std::string("//elsewhere.example/lti/launch"),
-        std::string("javascript:alert(1)"), opened_->address() + "/lti/launch#x"}) {
+       {std::string("https://elsewhere.example/"),
+        opened_->address() + ".elsewhere.example/lti/launch",
+        opened_->address() + "@elsewhere.example/lti/launch", opened_->address() + "/",
+        std::string("//elsewhere.example/lti/launch"), std::string("javascript:alert(1)"),
+        opened_->address() + "/lti/launch#x"}) {
     const Heard heard = b.ask("GET", "/lti/login?" + with(target));
     EXPECT_EQ(heard.status, 400) << target;
     EXPECT_FALSE(heard.fields.contains("location")) << target;
@@ -136,14 +147,19 @@ TEST_F(Launches, LeadNowhereButHere) {
   std::string unknown = right;
   unknown.replace(unknown.find("cavum-1"), 7, "cavum-2");
   EXPECT_EQ(b.ask("GET", "/lti/login?" + unknown).status, 400);
-  EXPECT_EQ(b.ask("GET", "/lti/login?iss=https%3A%2F%2Felsewhere.example&login_hint=x&target_link_uri=" + tool).status, 400);
+  EXPECT_EQ(
+      b.ask("GET",
+            "/lti/login?iss=https%3A%2F%2Felsewhere.example&login_hint=x&target_link_uri=" + tool)
+          .status,
+      400);
   EXPECT_EQ(b.ask("GET", "/lti/login").status, 400);
   EXPECT_EQ(b.ask("POST", "/lti/login", right).status, 302) << "a form does, too";
 }
 
 TEST_F(Launches, OpenAWindowWhereTheyStandInAFrame) {
   Browser b = browser();
-  const Heard framed = b.ask("GET", "/lti/login?" + b.begun("Learner:4711", "a%22%3E%3Cscript%3E"), "", {{"Sec-Fetch-Dest", "iframe"}});
+  const Heard framed = b.ask("GET", "/lti/login?" + b.begun("Learner:4711", "a%22%3E%3Cscript%3E"),
+                             "", {{"Sec-Fetch-Dest", "iframe"}});
   EXPECT_EQ(framed.status, 200);
   EXPECT_NE(framed.body.find("target=\"_blank\""), std::string::npos);
   EXPECT_EQ(framed.body.find("<script"), std::string::npos);
@@ -152,8 +168,13 @@ TEST_F(Launches, OpenAWindowWhereTheyStandInAFrame) {
   EXPECT_NE(policy.find("frame-ancestors " + platform_->issuer()), std::string::npos) << policy;
   EXPECT_EQ(policy.find("script-src"), std::string::npos);
   ASSERT_EQ(b.launch("Learner:4711").status, 303);
-  EXPECT_NE(b.ask("GET", "/lti/result").fields.at("content-security-policy").find("frame-ancestors 'none'"), std::string::npos) << "results never do";
-  EXPECT_NE(b.ask("GET", "/").fields.at("content-security-policy").find("frame-ancestors 'none'"), std::string::npos);
+  EXPECT_NE(b.ask("GET", "/lti/result")
+                .fields.at("content-security-policy")
+                .find("frame-ancestors 'none'"),
+            std::string::npos)
+      << "results never do";
+  EXPECT_NE(b.ask("GET", "/").fields.at("content-security-policy").find("frame-ancestors 'none'"),
+            std::string::npos);
 }
 
 TEST_F(Launches, AnInstructorIsAReaderUnlessAnOfficerLinkedHim) {
@@ -173,7 +194,8 @@ TEST_F(Launches, AnInstructorIsAReaderUnlessAnOfficerLinkedHim) {
   ASSERT_EQ(b.launch("Instructor:anna").status, 303);
   EXPECT_EQ(b.ask("GET", "/api/me").json()["name"], "The examiner");
   Browser learner = browser();
-  ASSERT_EQ(learner.launch("Learner:anna").fields.at("location"), "/lti/result") << "a learner's role is no instructor's";
+  ASSERT_EQ(learner.launch("Learner:anna").fields.at("location"), "/lti/result")
+      << "a learner's role is no instructor's";
   set.link(platform_->issuer(), "cavum-1", "u-anna", "");
   ASSERT_EQ(b.launch("Instructor:anna").status, 303);
   EXPECT_EQ(b.ask("GET", "/api/me").json()["role"], "reader");
@@ -189,12 +211,17 @@ TEST_F(Launches, AskNoHostThatWasNotSetUp) {
   const std::string port = std::to_string(platform_->number());
   EXPECT_EQ(ask_platform(p, "GET", p.jwks_url).status, 200);
   for (const std::string& address :
-       {"http://127.0.0.1:" + port + "/jwks", "https://127.0.0.1:" + std::to_string(opened_->port()) + "/", std::string("https://169.254.169.254/"),
-        std::string("https://127.0.0.1/jwks"), "https://x@127.0.0.1:" + port + "/jwks", "https://127.0.0.1:" + port + "@elsewhere.example/",
-        std::string("file:///etc/passwd"), "https://127.0.0.1:" + port + ".elsewhere.example/", "https://127.0.0.1:" + port + "/\r\nX: y",
-        std::string()}) {
+       {"http://127.0.0.1:" + port + "/jwks",
+        "https://127.0.0.1:" + std::to_string(opened_->port()) + "/",
+        std::string("https://169.254.169.254/"), std::string("https://127.0.0.1/jwks"),
+        "https://x@127.0.0.1:" + port + "/jwks",
+        "https://127.0.0.1:" + port + "@elsewhere.example/", std::string("file:///etc/passwd"),
+        "https://127.0.0.1:" + port + ".elsewhere.example/",
+        "https://127.0.0.1:" + port + "/\r\nX: y", std::string()}) {
     // before anything is sent, and not because nobody answers there
-    EXPECT_EQ(testing_basics::code_of([&] { static_cast<void>(ask_platform(p, "GET", address)); }), LtiError::address) << address;
+    EXPECT_EQ(testing_basics::code_of([&] { static_cast<void>(ask_platform(p, "GET", address)); }),
+              LtiError::address)
+        << address;
   }
   platform_->control({{"jwks", "redirect"}});
   PlatformKeys keys;
@@ -206,12 +233,15 @@ TEST_F(Launches, AskNoHostThatWasNotSetUp) {
   EXPECT_TRUE(has_key(keys.of(p, "k1"), "k1"));
   const int before = platform_->control()["asked"]["/jwks"];
   for (int i = 0; i < 20; ++i) static_cast<void>(keys.of(p, "drawn-" + std::to_string(i)));
-  EXPECT_EQ(platform_->control()["asked"]["/jwks"], before) << "unknown keys do not make it ask again and again";
+  EXPECT_EQ(platform_->control()["asked"]["/jwks"], before)
+      << "unknown keys do not make it ask again and again";
   LtiPlatform stranger = p;
   stranger.certificate = read_text_file(opened_->certificate());
-  EXPECT_THROW(static_cast<void>(ask_platform(stranger, "GET", p.jwks_url)), PlatformUnreachable) << "another certificate";
+  EXPECT_THROW(static_cast<void>(ask_platform(stranger, "GET", p.jwks_url)), PlatformUnreachable)
+      << "another certificate";
   stranger.certificate.clear();
-  EXPECT_THROW(static_cast<void>(ask_platform(stranger, "GET", p.jwks_url)), PlatformUnreachable) << "none that this computer trusts";
+  EXPECT_THROW(static_cast<void>(ask_platform(stranger, "GET", p.jwks_url)), PlatformUnreachable)
+      << "none that this computer trusts";
 }
 
 TEST_F(Launches, ASetUpNeedsAddressesOfHttpsAndOneSourceOfKeys) {
@@ -223,15 +253,18 @@ TEST_F(Launches, ASetUpNeedsAddressesOfHttpsAndOneSourceOfKeys) {
     return out;
   };
   for (const char* name : {"office", "issuer", "auth_endpoint", "token_endpoint", "jwks_url"})
-    for (const char* wrong :
-         {"http://moodle.example/", "moodle.example", "https://", "https://a b/", "https://a/#x", "https://a:99999/", "javascript:1"})
-      EXPECT_THROW(static_cast<void>(platform_in(with(name, wrong))), Error) << name << " " << wrong;
+    for (const char* wrong : {"http://moodle.example/", "moodle.example", "https://",
+                              "https://a b/", "https://a/#x", "https://a:99999/", "javascript:1"})
+      EXPECT_THROW(static_cast<void>(platform_in(with(name, wrong))), Error)
+          << name << " " << wrong;
   EXPECT_THROW(static_cast<void>(platform_in(with("hosts", {"http://school.example"}))), Error);
-  EXPECT_TRUE(platform_in(with("hosts", {"https://School.example/"})).may_ask("https://school.example/api/lti"));
+  EXPECT_TRUE(platform_in(with("hosts", {"https://School.example/"}))
+                  .may_ask("https://school.example/api/lti"));
   EXPECT_FALSE(platform_in(right).may_ask("https://school.example/api/lti"));
   EXPECT_THROW(static_cast<void>(platform_in(with("deployments", json::array()))), Error);
   EXPECT_THROW(static_cast<void>(platform_in(with("claim", "name"))), Error) << "never by name";
-  EXPECT_THROW(static_cast<void>(platform_in(with("key_set", {{"keys", json::array()}}))), Error) << "two sources of keys";
+  EXPECT_THROW(static_cast<void>(platform_in(with("key_set", {{"keys", json::array()}}))), Error)
+      << "two sources of keys";
   EXPECT_THROW(static_cast<void>(platform_in(with("jwks_url", ""))), Error) << "and none";
 }
 

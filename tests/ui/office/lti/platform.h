@@ -1,4 +1,5 @@
-// A learning platform beside an office: `platform.py` as a process of its own, and a browser that goes between the two.
+// A learning platform beside an office: `platform.py` as a process of its own, and a browser that
+// goes between the two.
 #pragma once
 
 #include <fcntl.h>
@@ -44,11 +45,14 @@ class Platform {
             {"claim", "custom.number"},
             {"certificate", read_text_file(certificate_file())}};
   }
-  /// Tells the platform something, and what it knows since: {posts, results, items, asked, violations}.
+  /// Tells the platform something, and what it knows since: {posts, results, items, asked,
+  /// violations}.
   nlohmann::json control(const nlohmann::json& what = nlohmann::json::object()) const {
     return Visitor{number()}.ask("POST", "/control", what.dump()).json();
   }
-  [[nodiscard]] std::uint16_t number() const { return static_cast<std::uint16_t>(std::stoi(port_)); }
+  [[nodiscard]] std::uint16_t number() const {
+    return static_cast<std::uint16_t>(std::stoi(port_));
+  }
 
  private:
   [[nodiscard]] std::string certificate_file() const { return folder_.file("certificate.pem"); }
@@ -59,9 +63,12 @@ class Platform {
     if (pid_ == 0) {
       ::dup2(out[1], STDOUT_FILENO);
       ::close(out[0]);
-      const std::string program = std::string(CAVUM_SOURCE_DIR) + "/tests/ui/office/lti/platform.py", key = folder_.file("key.pem");
-      ::execlp("python3", "python3", program.c_str(), "--certificate", certificate_file().c_str(), "--key", key.c_str(), "--tool", tool_.c_str(),
-               "--port", port.c_str(), static_cast<char*>(nullptr));
+      const std::string program =
+                            std::string(CAVUM_SOURCE_DIR) + "/tests/ui/office/lti/platform.py",
+                        key = folder_.file("key.pem");
+      ::execlp("python3", "python3", program.c_str(), "--certificate", certificate_file().c_str(),
+               "--key", key.c_str(), "--tool", tool_.c_str(), "--port", port.c_str(),
+               static_cast<char*>(nullptr));
       ::_exit(127);
     }
     ::close(out[1]);
@@ -81,11 +88,13 @@ struct Browser {
   const Platform* platform = nullptr;
   std::map<std::string, std::string> cookies = {};
 
-  Heard ask(const std::string& method, const std::string& path, const std::string& body = "", std::map<std::string, std::string> more = {}) {
+  Heard ask(const std::string& method, const std::string& path, const std::string& body = "",
+            std::map<std::string, std::string> more = {}) {
     std::string all;
     for (const auto& [name, value] : cookies) all += (all.empty() ? "" : "; ") + name + "=" + value;
     if (!all.empty()) more["Cookie"] = all;
-    if (method == "POST" && !more.contains("Content-Type")) more["Content-Type"] = "application/x-www-form-urlencoded";
+    if (method == "POST" && !more.contains("Content-Type"))
+      more["Content-Type"] = "application/x-www-form-urlencoded";
     Heard heard = Visitor{office}.ask(method, path, body, more);
     if (const auto set = heard.fields.find("set-cookie"); set != heard.fields.end()) {
       const std::string one = set->second.substr(0, set->second.find(';'));
@@ -96,8 +105,10 @@ struct Browser {
   /// What the platform sends the browser to, as `who` ("Learner:4711"): the query of our login.
   [[nodiscard]] std::string begun(const std::string& who, const std::string& attack = "") const {
     const std::string tool = "https://127.0.0.1:" + std::to_string(office);
-    return "iss=" + office::url_encoded(platform->issuer()) + "&login_hint=" + office::url_encoded(who) +
-           "&target_link_uri=" + office::url_encoded(tool + "/lti/launch") + "&client_id=cavum-1&lti_deployment_id=1" +
+    return "iss=" + office::url_encoded(platform->issuer()) +
+           "&login_hint=" + office::url_encoded(who) +
+           "&target_link_uri=" + office::url_encoded(tool + "/lti/launch") +
+           "&client_id=cavum-1&lti_deployment_id=1" +
            (attack.empty() ? "" : "&lti_message_hint=" + attack);
   }
   /// The form with which the platform sends the browser back; empty: no login was begun.
@@ -113,10 +124,15 @@ struct Browser {
     const Heard page = Visitor{platform->number()}.get(to.substr(platform->issuer().size()));
     EXPECT_EQ(page.status, 200) << page.body;
     std::smatch found;
-    static const std::regex k_form(R"re(name="state" value="([^"]*)"><input name="id_token" value="([^"]*)")re");
-    return std::regex_search(page.body, found, k_form) ? "state=" + found[1].str() + "&id_token=" + found[2].str() : "";
+    static const std::regex k_form(
+        R"re(name="state" value="([^"]*)"><input name="id_token" value="([^"]*)")re");
+    return std::regex_search(page.body, found, k_form)
+               ? "state=" + found[1].str() + "&id_token=" + found[2].str()
+               : "";
   }
-  Heard launch(const std::string& who, const std::string& attack = "") { return ask("POST", "/lti/launch", form(who, attack)); }
+  Heard launch(const std::string& who, const std::string& attack = "") {
+    return ask("POST", "/lti/launch", form(who, attack));
+  }
 };
 
 }  // namespace cavum::testing_office

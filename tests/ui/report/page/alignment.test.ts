@@ -14,7 +14,15 @@ test("by the clock both are at the same second, and what ended earlier stands", 
 test("by steps both are as far into the same step, and back", () => {
   const a = new Alignment(own, { steps_s: [5, 25], duration_s: 55 });
   a.by_step = true;
-  for (const [t, other] of [[0, 0], [5, 2.5], [10, 5], [20, 15], [30, 25], [35, 40], [40, 55]]) {
+  for (const [t, other] of [
+    [0, 0],
+    [5, 2.5],
+    [10, 5],
+    [20, 15],
+    [30, 25],
+    [35, 40],
+    [40, 55],
+  ]) {
     assert.equal(a.time(t), other);
     assert.equal(a.back(other), t);
   }

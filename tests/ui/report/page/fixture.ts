@@ -22,7 +22,11 @@ export function front_mm(t_s: number): number {
 
 /** Volume of the tooth without pulp. */
 export function whole_mm3(): number {
-  return (4 / 3) * Math.PI * (k_semi_mm[0] * k_semi_mm[1] * k_semi_mm[2] - k_pulp_mm[0] * k_pulp_mm[1] * k_pulp_mm[2]);
+  return (
+    (4 / 3) *
+    Math.PI *
+    (k_semi_mm[0] * k_semi_mm[1] * k_semi_mm[2] - k_pulp_mm[0] * k_pulp_mm[1] * k_pulp_mm[2])
+  );
 }
 
 /** Volume drilled away at a time: the part of the cylinder between the front and the ellipsoid, by polar quadrature. */
@@ -34,7 +38,8 @@ export function drilled_mm3(t_s: number): number {
     const r = ((i + 0.5) / rings) * k_cut.radius_mm;
     for (let j = 0; j < spokes; ++j) {
       const a = ((j + 0.5) / spokes) * 2 * Math.PI;
-      const q = 1 - ((r * Math.cos(a)) / k_semi_mm[0]) ** 2 - ((r * Math.sin(a)) / k_semi_mm[1]) ** 2;
+      const q =
+        1 - ((r * Math.cos(a)) / k_semi_mm[0]) ** 2 - ((r * Math.sin(a)) / k_semi_mm[1]) ** 2;
       sum += Math.max(k_semi_mm[2] * Math.sqrt(q) - front, 0) * r;
     }
   }
@@ -115,20 +120,44 @@ export function fixture(kind: "session" | "class" = "session"): ReportData {
         const [x, y, z] = [centre(i, 0), centre(j, 1), centre(k, 2)];
         const pulp = within(k_pulp_mm, x, y, z - k_pulp_z_mm);
         const outside = !within(k_semi_mm, x, y, z);
-        tissue[at] = outside ? 0 : pulp ? 3 : within(k_semi_mm.map((s) => s - k_enamel_mm) as Vec3, x, y, z) ? 2 : 1;
+        tissue[at] = outside
+          ? 0
+          : pulp
+            ? 3
+            : within(k_semi_mm.map((s) => s - k_enamel_mm) as Vec3, x, y, z)
+              ? 2
+              : 1;
         const b = [i - box_low[0], j - box_low[1], k - box_low[2]];
         const in_box = b.every((v, a) => v >= 0 && v < box_size[a]);
-        const near = Math.abs((x / k_semi_mm[0]) ** 2 + (y / k_semi_mm[1]) ** 2 + (z / k_semi_mm[2]) ** 2 - 1) < 0.15 || Math.abs((x / k_pulp_mm[0]) ** 2 + (y / k_pulp_mm[1]) ** 2 + ((z - k_pulp_z_mm) / k_pulp_mm[2]) ** 2 - 1) < 0.6;
+        const near =
+          Math.abs(
+            (x / k_semi_mm[0]) ** 2 + (y / k_semi_mm[1]) ** 2 + (z / k_semi_mm[2]) ** 2 - 1,
+          ) < 0.15 ||
+          Math.abs(
+            (x / k_pulp_mm[0]) ** 2 +
+              (y / k_pulp_mm[1]) ** 2 +
+              ((z - k_pulp_z_mm) / k_pulp_mm[2]) ** 2 -
+              1,
+          ) < 0.6;
         let [solid, kept] = [0, 0];
         if (!near && !in_box) {
           before[at] = outside || pulp ? 0 : 255;
           continue;
         }
         for (let s = 0; s < sub ** 3; ++s) {
-          const p = [s % sub, Math.floor(s / sub) % sub, Math.floor(s / sub ** 2)].map((v, a) => [x, y, z][a] + ((v + 0.5) / sub - 0.5) * k_cell_mm);
-          if (!within(k_semi_mm, p[0], p[1], p[2]) || within(k_pulp_mm, p[0], p[1], p[2] - k_pulp_z_mm)) continue;
+          const p = [s % sub, Math.floor(s / sub) % sub, Math.floor(s / sub ** 2)].map(
+            (v, a) => [x, y, z][a] + ((v + 0.5) / sub - 0.5) * k_cell_mm,
+          );
+          if (
+            !within(k_semi_mm, p[0], p[1], p[2]) ||
+            within(k_pulp_mm, p[0], p[1], p[2] - k_pulp_z_mm)
+          )
+            continue;
           ++solid;
-          const gone = kind === "session" ? Math.hypot(p[0], p[1]) < k_cut.radius_mm && p[2] > k_cut.floor_mm : distance_mm(p[0], p[1], p[2]) < 0;
+          const gone =
+            kind === "session"
+              ? Math.hypot(p[0], p[1]) < k_cut.radius_mm && p[2] > k_cut.floor_mm
+              : distance_mm(p[0], p[1], p[2]) < 0;
           if (!gone) ++kept;
         }
         before[at] = Math.round((255 * solid) / sub ** 3);
@@ -144,7 +173,8 @@ export function fixture(kind: "session" | "class" = "session"): ReportData {
           last[c] = stamp(Math.max(z - k_cell_mm / 2, k_cut.floor_mm));
         }
         if (d >= 0 && x > 0.5) heat[c] = Math.round(90 * Math.exp(-d / 0.3));
-        else if (d < 0 && z < k_target.floor_mm + 0.8) heat[c] = -Math.round(70 * Math.exp(d / 0.25));
+        else if (d < 0 && z < k_target.floor_mm + 0.8)
+          heat[c] = -Math.round(70 * Math.exp(d / 0.25));
       }
 
   const data: ReportData = {
@@ -157,7 +187,16 @@ export function fixture(kind: "session" | "class" = "session"): ReportData {
       { name: "dentin", words: "dentin", colour: "#d9b98a", solid: true },
       { name: "pulp", words: "pulp", colour: "#b5403a", solid: false, pulp: true },
     ],
-    grid: { cell_mm: k_cell_mm, origin_mm, size, before: pack("u8", before), tissue: pack("u8", tissue), box: { low: box_low, size: box_size }, after: pack("u8", after), distance: pack("i8", distance) },
+    grid: {
+      cell_mm: k_cell_mm,
+      origin_mm,
+      size,
+      before: pack("u8", before),
+      tissue: pack("u8", tissue),
+      box: { low: box_low, size: box_size },
+      after: pack("u8", after),
+      distance: pack("i8", distance),
+    },
     scale_mm: 0.5,
   };
   if (kind === "class") {
@@ -170,24 +209,74 @@ export function fixture(kind: "session" | "class" = "session"): ReportData {
   data.high_contrast = false;
   const dt_s = 0.02;
   const samples = k_duration_s / dt_s + 1;
-  const column = (value: (t_s: number) => number): number[] => Array.from({ length: samples }, (_, i) => Math.round(value(i * dt_s)));
+  const column = (value: (t_s: number) => number): number[] =>
+    Array.from({ length: samples }, (_, i) => Math.round(value(i * dt_s)));
   const turning = (t: number): boolean => t > k_from_s && t < k_to_s && !(t > 9 && t < 10);
   const axis = [0.17, -0.1, Math.sqrt(1 - 0.17 ** 2 - 0.1 ** 2)];
   data.motion = {
     dt_s,
     n: samples,
-    x_um: pack("i16", column((t) => 800 * Math.cos(2.4 * t)), true),
-    y_um: pack("i16", column((t) => 800 * Math.sin(2.4 * t)), true),
-    z_um: pack("i16", column((t) => 1000 * front_mm(t) + 20), true),
-    ax: pack("i8", column(() => 127 * axis[0])),
-    ay: pack("i8", column(() => 127 * axis[1])),
-    az: pack("i8", column(() => 127 * axis[2])),
-    force_cn: pack("u16", column((t) => (turning(t) ? 90 + 50 * Math.sin(3 * t) + 20 * Math.sin(17 * t) : 0))),
-    depth_um: pack("i16", column((t) => Math.max(3400 - 1000 * front_mm(t), 0)), true),
-    rpm10: pack("u16", column((t) => (turning(t) ? 20000 - 600 * Math.sin(5 * t) : 0))),
-    tip_50um_s: pack("u16", column((t) => 38 + 6 * Math.sin(11 * t))),
+    x_um: pack(
+      "i16",
+      column((t) => 800 * Math.cos(2.4 * t)),
+      true,
+    ),
+    y_um: pack(
+      "i16",
+      column((t) => 800 * Math.sin(2.4 * t)),
+      true,
+    ),
+    z_um: pack(
+      "i16",
+      column((t) => 1000 * front_mm(t) + 20),
+      true,
+    ),
+    ax: pack(
+      "i8",
+      column(() => 127 * axis[0]),
+    ),
+    ay: pack(
+      "i8",
+      column(() => 127 * axis[1]),
+    ),
+    az: pack(
+      "i8",
+      column(() => 127 * axis[2]),
+    ),
+    force_cn: pack(
+      "u16",
+      column((t) => (turning(t) ? 90 + 50 * Math.sin(3 * t) + 20 * Math.sin(17 * t) : 0)),
+    ),
+    depth_um: pack(
+      "i16",
+      column((t) => Math.max(3400 - 1000 * front_mm(t), 0)),
+      true,
+    ),
+    rpm10: pack(
+      "u16",
+      column((t) => (turning(t) ? 20000 - 600 * Math.sin(5 * t) : 0)),
+    ),
+    tip_50um_s: pack(
+      "u16",
+      column((t) => 38 + 6 * Math.sin(11 * t)),
+    ),
   };
-  data.instruments = [{ from_s: 0, name: "round 1.4", profile_mm: [[0, 0], [0.05, 0.26], [0.2, 0.49], [0.45, 0.66], [0.7, 0.7], [0.95, 0.66], [1.2, 0.49], [1.35, 0.3]] }];
+  data.instruments = [
+    {
+      from_s: 0,
+      name: "round 1.4",
+      profile_mm: [
+        [0, 0],
+        [0.05, 0.26],
+        [0.2, 0.49],
+        [0.45, 0.66],
+        [0.7, 0.7],
+        [0.95, 0.66],
+        [1.2, 0.49],
+        [1.35, 0.3],
+      ],
+    },
+  ];
   data.events = [
     { t_s: 2, kind: "step", text: "Outline begun", site_mm: [0, 0, 3.4] },
     { t_s: 9, kind: "pause", text: "Pause of 1.0 s", site_mm: null },
@@ -195,9 +284,30 @@ export function fixture(kind: "session" | "class" = "session"): ReportData {
     { t_s: 18, kind: "step", text: "Floor reached", site_mm: [0, 0, 0.9] },
   ];
   data.moments = [
-    { criterion: "Overcut, walls", t_s: 11, to_t_s: 14.5, site_mm: [-1.5, 0, 1.8], what: "0.30 mm beyond the distal wall", points_lost: 28.5 },
-    { criterion: "Idle", t_s: 9, to_t_s: 10, site_mm: null, what: "nothing was done", points_lost: null },
-    { criterion: "Floor", t_s: 17, to_t_s: null, site_mm: [0, 0, 0.9], what: "0.10 mm too deep", points_lost: 2 },
+    {
+      criterion: "Overcut, walls",
+      t_s: 11,
+      to_t_s: 14.5,
+      site_mm: [-1.5, 0, 1.8],
+      what: "0.30 mm beyond the distal wall",
+      points_lost: 28.5,
+    },
+    {
+      criterion: "Idle",
+      t_s: 9,
+      to_t_s: 10,
+      site_mm: null,
+      what: "nothing was done",
+      points_lost: null,
+    },
+    {
+      criterion: "Floor",
+      t_s: 17,
+      to_t_s: null,
+      site_mm: [0, 0, 0.9],
+      what: "0.10 mm too deep",
+      points_lost: 2,
+    },
   ];
   return data;
 }

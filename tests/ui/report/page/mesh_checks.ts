@@ -52,7 +52,10 @@ export function volume(...meshes: Triangles[]): number {
   for (const { positions: p, triangles: t } of meshes)
     for (let i = 0; i < t.length; i += 3) {
       const [a, b, c] = [3 * t[i], 3 * t[i + 1], 3 * t[i + 2]];
-      six += p[a] * (p[b + 1] * p[c + 2] - p[b + 2] * p[c + 1]) + p[a + 1] * (p[b + 2] * p[c] - p[b] * p[c + 2]) + p[a + 2] * (p[b] * p[c + 1] - p[b + 1] * p[c]);
+      six +=
+        p[a] * (p[b + 1] * p[c + 2] - p[b + 2] * p[c + 1]) +
+        p[a + 1] * (p[b + 2] * p[c] - p[b] * p[c + 2]) +
+        p[a + 2] * (p[b] * p[c + 1] - p[b + 1] * p[c]);
     }
   return six / 6;
 }
@@ -60,11 +63,13 @@ export function volume(...meshes: Triangles[]): number {
 /** Triangles as a sorted list of their corners' positions, each from its least corner on. */
 export function triangle_names(...meshes: Triangles[]): string[] {
   return meshes
-    .flatMap((mesh) => Array.from({ length: mesh.triangles.length / 3 }, (_, i) => {
-      const corners = [corner(mesh, 3 * i), corner(mesh, 3 * i + 1), corner(mesh, 3 * i + 2)];
-      const least = corners.indexOf([...corners].sort()[0]);
-      return [0, 1, 2].map((k) => corners[(least + k) % 3]).join("|");
-    }))
+    .flatMap((mesh) =>
+      Array.from({ length: mesh.triangles.length / 3 }, (_, i) => {
+        const corners = [corner(mesh, 3 * i), corner(mesh, 3 * i + 1), corner(mesh, 3 * i + 2)];
+        const least = corners.indexOf([...corners].sort()[0]);
+        return [0, 1, 2].map((k) => corners[(least + k) % 3]).join("|");
+      }),
+    )
     .sort();
 }
 
@@ -81,5 +86,7 @@ export function random_of(seed: number): () => number {
 
 /** A new seed each run, or the one of CAVUM_TEST_SEED. */
 export function new_seed(): number {
-  return process.env.CAVUM_TEST_SEED ? Number(process.env.CAVUM_TEST_SEED) : Math.floor(Math.random() * 4294967296);
+  return process.env.CAVUM_TEST_SEED
+    ? Number(process.env.CAVUM_TEST_SEED)
+    : Math.floor(Math.random() * 4294967296);
 }

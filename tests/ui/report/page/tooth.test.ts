@@ -7,7 +7,17 @@ import { thinned } from "../src/thinned_surface.ts";
 import { ToothField } from "../src/tooth_field.ts";
 import { heat_at, k_no_distance_mm, target_surface, ToothSurface } from "../src/tooth_surface.ts";
 import type { ReportData } from "../src/data.ts";
-import { distance_mm, drilled_mm3, fixture, front_mm, k_cut, k_duration_s, k_target, pack, whole_mm3 } from "./fixture.ts";
+import {
+  distance_mm,
+  drilled_mm3,
+  fixture,
+  front_mm,
+  k_cut,
+  k_duration_s,
+  k_target,
+  pack,
+  whole_mm3,
+} from "./fixture.ts";
 import { new_seed, random_of, unbalanced_edges, volume } from "./mesh_checks.ts";
 
 const data = fixture();
@@ -15,7 +25,12 @@ const field = new ToothField(data);
 const surface = new ToothSurface(field, data);
 const still = surface.still();
 const cell = field.cell_mm;
-const mm = (positions: ArrayLike<number>, i: number): [number, number, number] => [0, 1, 2].map((a) => field.origin_mm[a] + positions[3 * i + a] * cell) as [number, number, number];
+const mm = (positions: ArrayLike<number>, i: number): [number, number, number] =>
+  [0, 1, 2].map((a) => field.origin_mm[a] + positions[3 * i + a] * cell) as [
+    number,
+    number,
+    number,
+  ];
 
 test("still and moving part together are one closed surface of the tooth's volume, at any time", (t) => {
   const seed = new_seed();
@@ -26,7 +41,10 @@ test("still and moving part together are one closed surface of the tooth's volum
     const moving = surface.moving()!;
     // balanced, not two triangles each: where a surface touches itself in a cube's diagonal, surface nets let four triangles meet at an edge
     assert.equal(unbalanced_edges(still, moving), 0, `at ${t_s} s`);
-    assert.ok(unbalanced_edges(still) > 0 && unbalanced_edges(moving) > 0, "there is a seam at all");
+    assert.ok(
+      unbalanced_edges(still) > 0 && unbalanced_edges(moving) > 0,
+      "there is a seam at all",
+    );
     const measured = volume(still, moving) * cell ** 3;
     const exact = whole_mm3() - drilled_mm3(t_s);
     t.diagnostic(`at ${t_s.toFixed(2)} s: ${measured.toFixed(2)} mm³ for ${exact.toFixed(2)} mm³`);
@@ -66,7 +84,10 @@ test("the cut surface carries its distance to the target, also beside the openin
     if (moving.marks[2 * i + 1] < 0.35) continue; // the cut surface away from its rim, where the tooth's own surface joins
     const [x, y, z] = mm(moving.positions, i);
     const error = Math.abs(moving.marks[2 * i] - distance_mm(x, y, z));
-    assert.ok(error < 0.08, `at ${x}, ${y}, ${z}: ${moving.marks[2 * i]} for ${distance_mm(x, y, z)}`);
+    assert.ok(
+      error < 0.08,
+      `at ${x}, ${y}, ${z}: ${moving.marks[2 * i]} for ${distance_mm(x, y, z)}`,
+    );
     if (error > 0.03) ++off;
     ++checked;
   }
@@ -88,7 +109,10 @@ test("before the exam nothing is cut, and the target's opening is marked as insi
     } else if (z > 2.5 && side > 0.15) assert.ok(moving.marks[2 * i] > 0);
   }
   assert.ok(inside > 300);
-  assert.ok([...still.marks].filter((_, i) => i % 2 === 0).some((d) => d === k_no_distance_mm), "beyond the box nothing is known");
+  assert.ok(
+    [...still.marks].filter((_, i) => i % 2 === 0).some((d) => d === k_no_distance_mm),
+    "beyond the box nothing is known",
+  );
 });
 
 test("a line of sight reads place, distance, tissue and the time of the cut", () => {
@@ -122,7 +146,9 @@ test("the target's outline lies on its walls and floor and has no lid", () => {
   assert.ok(outline.cubes.length > 2000);
   let highest = -9;
   for (let i = 0; i < outline.cubes.length; ++i) {
-    const p = [0, 1, 2].map((a) => field.origin_mm[a] + (field.box.low[a] + outline.positions[3 * i + a]) * cell);
+    const p = [0, 1, 2].map(
+      (a) => field.origin_mm[a] + (field.box.low[a] + outline.positions[3 * i + a]) * cell,
+    );
     // at the opening, where the field jumps from inside to outside, it may end in a lip of one cell
     assert.ok(Math.abs(distance_mm(p[0], p[1], p[2])) < (p[2] < 2.9 ? 0.06 : 0.13), `at ${p}`);
     highest = Math.max(highest, p[2]);
@@ -131,14 +157,23 @@ test("the target's outline lies on its walls and floor and has no lid", () => {
 });
 
 test("with fewer triangles it is closed with the same moving part, and nearly of the same volume", () => {
-  const fewer = { positions: still.positions, triangles: thinned(still, field.size, field.moving_edges()) };
-  assert.ok(fewer.triangles.length < 0.5 * still.triangles.length, `${fewer.triangles.length / 3} of ${still.triangles.length / 3} triangles`);
+  const fewer = {
+    positions: still.positions,
+    triangles: thinned(still, field.size, field.moving_edges()),
+  };
+  assert.ok(
+    fewer.triangles.length < 0.5 * still.triangles.length,
+    `${fewer.triangles.length / 3} of ${still.triangles.length / 3} triangles`,
+  );
   for (const t_s of [0, 0.6 * k_duration_s, k_duration_s]) {
     field.set_time(t_s);
     const moving = surface.moving()!;
     assert.equal(unbalanced_edges(fewer, moving), 0, `at ${t_s} s`);
     const whole = volume(still, moving);
-    assert.ok(Math.abs(volume(fewer, moving) - whole) < 0.05 * whole, `${volume(fewer, moving)} of ${whole}`);
+    assert.ok(
+      Math.abs(volume(fewer, moving) - whole) < 0.05 * whole,
+      `${volume(fewer, moving)} of ${whole}`,
+    );
   }
 });
 
@@ -156,12 +191,21 @@ test("a class shows at each place of the ideal cavity the share that overcut it 
   const wall: [number, number, number] = [k_target.x_mm + k_target.radius_mm, 0, 2];
   for (const deeper_mm of [0.1, 0.3]) {
     const over = heat_at(class_field, wall, [-1, 0, 0], deeper_mm)!;
-    assert.ok(Math.abs(over - 90 * Math.exp(-deeper_mm / 0.3)) < 16, `overcut by more than ${deeper_mm} mm: ${over} %`);
+    assert.ok(
+      Math.abs(over - 90 * Math.exp(-deeper_mm / 0.3)) < 16,
+      `overcut by more than ${deeper_mm} mm: ${over} %`,
+    );
     const under = heat_at(class_field, [0.2, 0, k_target.floor_mm], [0, 0, 1], deeper_mm)!;
-    assert.ok(Math.abs(under + 70 * Math.exp(-deeper_mm / 0.25)) < 16, `left more than ${deeper_mm} mm: ${under} %`);
+    assert.ok(
+      Math.abs(under + 70 * Math.exp(-deeper_mm / 0.25)) < 16,
+      `left more than ${deeper_mm} mm: ${under} %`,
+    );
   }
   const marks = class_surface.heat_marks(ideal, 0.1);
-  assert.ok([...marks].filter((_, i) => i % 2 === 0).some((v) => v > 0.4) && [...marks].some((v) => v < -0.3));
+  assert.ok(
+    [...marks].filter((_, i) => i % 2 === 0).some((v) => v > 0.4) &&
+      [...marks].some((v) => v < -0.3),
+  );
 });
 
 test("meshing again is quick enough to follow the scrubber", (t) => {
@@ -169,12 +213,39 @@ test("meshing again is quick enough to follow the scrubber", (t) => {
   const n = 120;
   const size: [number, number, number] = [n, n, n];
   const low: [number, number, number] = [20, 20, 20];
-  const inside = (x: number, y: number, z: number): boolean => Math.max(Math.abs(x - 59.5), Math.abs(y - 59.5), Math.abs(z - 59.5)) < 56;
-  const before = Uint8Array.from({ length: n ** 3 }, (_, i) => (inside(i % n, Math.floor(i / n) % n, Math.floor(i / n ** 2)) ? 255 : 0));
-  const stamps = Uint16Array.from({ length: 80 ** 3 }, (_, i) => Math.min(1600 * Math.hypot((i % 80) - 39.5, (Math.floor(i / 80) % 80) - 39.5, Math.floor(i / 6400) - 39.5), 65000));
+  const inside = (x: number, y: number, z: number): boolean =>
+    Math.max(Math.abs(x - 59.5), Math.abs(y - 59.5), Math.abs(z - 59.5)) < 56;
+  const before = Uint8Array.from({ length: n ** 3 }, (_, i) =>
+    inside(i % n, Math.floor(i / n) % n, Math.floor(i / n ** 2)) ? 255 : 0,
+  );
+  const stamps = Uint16Array.from({ length: 80 ** 3 }, (_, i) =>
+    Math.min(
+      1600 *
+        Math.hypot((i % 80) - 39.5, (Math.floor(i / 80) % 80) - 39.5, Math.floor(i / 6400) - 39.5),
+      65000,
+    ),
+  );
   const big: ReportData = {
-    schema: 1, kind: "session", title: "", duration_s: 10, tissues: data.tissues,
-    grid: { cell_mm: 0.1, origin_mm: [0, 0, 0], size, before: pack("u8", before), tissue: pack("u8", before.map((v) => (v ? 2 : 0))), box: { low, size: [80, 80, 80] }, after: pack("u8", new Uint8Array(80 ** 3)), first: pack("u16", stamps), last: pack("u16", stamps), distance: pack("i8", new Int8Array(80 ** 3).fill(127)) },
+    schema: 1,
+    kind: "session",
+    title: "",
+    duration_s: 10,
+    tissues: data.tissues,
+    grid: {
+      cell_mm: 0.1,
+      origin_mm: [0, 0, 0],
+      size,
+      before: pack("u8", before),
+      tissue: pack(
+        "u8",
+        before.map((v) => (v ? 2 : 0)),
+      ),
+      box: { low, size: [80, 80, 80] },
+      after: pack("u8", new Uint8Array(80 ** 3)),
+      first: pack("u16", stamps),
+      last: pack("u16", stamps),
+      distance: pack("i8", new Int8Array(80 ** 3).fill(127)),
+    },
   };
   const big_field = new ToothField(big);
   const big_surface = new ToothSurface(big_field, big);
@@ -188,6 +259,8 @@ test("meshing again is quick enough to follow the scrubber", (t) => {
     times.push(performance.now() - begin);
   }
   times.sort((a, b) => a - b);
-  t.diagnostic(`80 x 80 x 80 cells: median ${times[15].toFixed(1)} ms, slowest ${times[29].toFixed(1)} ms, up to ${vertices} vertices`);
+  t.diagnostic(
+    `80 x 80 x 80 cells: median ${times[15].toFixed(1)} ms, slowest ${times[29].toFixed(1)} ms, up to ${vertices} vertices`,
+  );
   assert.ok(times[15] < 1000, "a loaded machine is slow, but not by that much");
 });

@@ -7,7 +7,10 @@ export type May = (route: Route<unknown, unknown>) => boolean;
 
 /** What the server refused, in words. */
 export class Refused extends Error {
-  constructor(readonly status: number, text: string) {
+  constructor(
+    readonly status: number,
+    text: string,
+  ) {
     super(text);
   }
 }
@@ -23,7 +26,12 @@ async function ask({ method, path }: Route<unknown, unknown>, body?: unknown): P
   if (method !== "GET") headers["X-Cavum-Token"] = token;
   let response: Response;
   try {
-    response = await fetch(path, { method, headers, body: body === undefined ? undefined : JSON.stringify(body), credentials: "same-origin" });
+    response = await fetch(path, {
+      method,
+      headers,
+      body: body === undefined ? undefined : JSON.stringify(body),
+      credentials: "same-origin",
+    });
   } catch {
     throw new Refused(0, tr("The office does not answer. Look at the network, and try again."));
   }
@@ -46,11 +54,17 @@ export async function download(route: Route<Nothing, unknown>, name: string): Pr
   Object.assign(document.createElement("a"), { href, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(href), 60_000);
 }
-export async function post<Request, Answer>(route: Route<Request, Answer>, body: NoInfer<Request>): Promise<Answer> {
+export async function post<Request, Answer>(
+  route: Route<Request, Answer>,
+  body: NoInfer<Request>,
+): Promise<Answer> {
   return (await ask(route, body)).json() as Promise<Answer>;
 }
 /** Each event, until the source is closed. */
-export function listen<Event>(route: Route<Nothing, Event>, take: (event: Event) => void): EventSource {
+export function listen<Event>(
+  route: Route<Nothing, Event>,
+  take: (event: Event) => void,
+): EventSource {
   const source = new EventSource(route.path);
   source.onmessage = (event: MessageEvent<string>) => take(JSON.parse(event.data) as Event);
   return source;

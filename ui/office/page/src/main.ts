@@ -21,19 +21,54 @@ let by_proxy = false;
 let view: View | null = null;
 const may: May = ({ method, path }) => me?.may.includes(`${method} ${path}`) ?? false;
 
-const roles = (): { [role: string]: string } => ({ officer: tr("exam officer"), examiner: tr("examiner"), invigilator: tr("invigilator"), reader: tr("reader") });
+const roles = (): { [role: string]: string } => ({
+  officer: tr("exam officer"),
+  examiner: tr("examiner"),
+  invigilator: tr("invigilator"),
+  reader: tr("reader"),
+});
 
-interface Place { name: string; title: string; route: Route<unknown, unknown>; open(): Promise<View> }
+interface Place {
+  name: string;
+  title: string;
+  route: Route<unknown, unknown>;
+  open(): Promise<View>;
+}
 const places = (): Place[] => [
   { name: "day", title: tr("Exam day"), route: routes.board_events, open: () => board(may) },
   { name: "list", title: tr("Class list"), route: routes.issue, open: roster },
   { name: "tickets", title: tr("Tickets"), route: routes.tickets, open: () => tickets(may) },
   { name: "incidents", title: tr("Incidents"), route: routes.incidents, open: incidents },
-  { name: "decisions", title: tr("Decisions"), route: routes.queue, open: () => queue(may(routes.decide)) },
-  { name: "appeals", title: tr("Appeals"), route: routes.appeals, open: () => appeals(me?.name ?? "", may) },
-  { name: "rubric", title: tr("New rubric"), route: routes.begin_regrade, open: () => regrade(me?.name ?? "", may, me?.second_factor ?? false) },
-  { name: "platforms", title: tr("Learning platforms"), route: routes.lti, open: () => platforms(me?.second_factor ?? false) },
-  { name: "results", title: tr("Results"), route: routes.results, open: () => results(may, me?.second_factor ?? false) },
+  {
+    name: "decisions",
+    title: tr("Decisions"),
+    route: routes.queue,
+    open: () => queue(may(routes.decide)),
+  },
+  {
+    name: "appeals",
+    title: tr("Appeals"),
+    route: routes.appeals,
+    open: () => appeals(me?.name ?? "", may),
+  },
+  {
+    name: "rubric",
+    title: tr("New rubric"),
+    route: routes.begin_regrade,
+    open: () => regrade(me?.name ?? "", may, me?.second_factor ?? false),
+  },
+  {
+    name: "platforms",
+    title: tr("Learning platforms"),
+    route: routes.lti,
+    open: () => platforms(me?.second_factor ?? false),
+  },
+  {
+    name: "results",
+    title: tr("Results"),
+    route: routes.results,
+    open: () => results(may, me?.second_factor ?? false),
+  },
   { name: "trail", title: tr("Trail"), route: routes.trail, open: trail },
 ];
 
@@ -49,18 +84,34 @@ function head(mine: Place[], now: string): void {
   const bar = document.getElementById("head")!;
   bar.replaceChildren(make("strong", {}, me?.school ?? tr("Exam office")));
   if (me === null) return;
-  if (me.rehearsal) bar.append(make("span", { class: "rehearsal" }, tr("Rehearsal: exams that no hand moved are filed, too")));
+  if (me.rehearsal)
+    bar.append(
+      make(
+        "span",
+        { class: "rehearsal" },
+        tr("Rehearsal: exams that no hand moved are filed, too"),
+      ),
+    );
   const list = make("ul");
   for (const p of mine) {
-    const link = make("a", { href: `#${p.name}`, ...(p.name === now ? { "aria-current": "page" } : {}) }, p.title);
-    link.addEventListener("click", () => { if (location.hash === `#${p.name}`) void show(); });  // the same view, as it is now
+    const link = make(
+      "a",
+      { href: `#${p.name}`, ...(p.name === now ? { "aria-current": "page" } : {}) },
+      p.title,
+    );
+    link.addEventListener("click", () => {
+      if (location.hash === `#${p.name}`) void show();
+    }); // the same view, as it is now
     list.append(make("li", {}, link));
   }
-  bar.append(make("nav", { "aria-label": tr("Views") }, list), make("span", {}, `${me.name}, ${roles()[me.role] ?? me.role}`),
+  bar.append(
+    make("nav", { "aria-label": tr("Views") }, list),
+    make("span", {}, `${me.name}, ${roles()[me.role] ?? me.role}`),
     act(tr("Sign out"), {}, async () => {
       await post(routes.sign_out, {});
       signed_out();
-    }));
+    }),
+  );
 }
 
 function signed_out(): void {
@@ -115,7 +166,8 @@ async function begin(): Promise<void> {
   try {
     signed_in(await get(routes.me));
   } catch (wrong) {
-    if (!(wrong instanceof Refused && wrong.status === 401)) say(wrong instanceof Error ? wrong.message : "", true);
+    if (!(wrong instanceof Refused && wrong.status === 401))
+      say(wrong instanceof Error ? wrong.message : "", true);
     void show();
   }
 }

@@ -7,7 +7,10 @@ export class Alignment {
   private readonly own: number[];
   private readonly other: number[];
 
-  constructor(own: { steps_s: number[]; duration_s: number }, private readonly beside: { steps_s: number[]; duration_s: number }) {
+  constructor(
+    own: { steps_s: number[]; duration_s: number },
+    private readonly beside: { steps_s: number[]; duration_s: number },
+  ) {
     const both = Math.min(own.steps_s.length, beside.steps_s.length);
     this.own = [0, ...own.steps_s.slice(0, both), own.duration_s];
     this.other = [0, ...beside.steps_s.slice(0, both), beside.duration_s];
@@ -19,7 +22,9 @@ export class Alignment {
 
   /** What ended earlier stands as it was left. */
   time(t_s: number): number {
-    return this.by_step ? between(this.own, this.other, t_s) : Math.min(t_s, this.beside.duration_s);
+    return this.by_step
+      ? between(this.own, this.other, t_s)
+      : Math.min(t_s, this.beside.duration_s);
   }
 
   /** The time here at which the other one is at a time of its own. */
@@ -37,6 +42,12 @@ function between(from: number[], to: number[], t_s: number): number {
 }
 
 /** The data of the other session as those of a report. */
-export function beside_data(data: ReportData, beside: Beside): ReportData {
-  return { ...data, ...beside, title: beside.name, grid: { ...data.grid, ...beside.grid }, beside: undefined };
+export function adjacent_data(data: ReportData, beside: Beside): ReportData {
+  return {
+    ...data,
+    ...beside,
+    title: beside.name,
+    grid: { ...data.grid, ...beside.grid },
+    beside: undefined,
+  };
 }

@@ -27,15 +27,34 @@ export class Charts {
   private readonly quantities: Quantity[];
   private shown: [number, number];
 
-  constructor(private readonly section: HTMLElement, private readonly recording: Recording, private readonly events: ExamEvent[], private readonly clock: Clock) {
+  constructor(
+    private readonly section: HTMLElement,
+    private readonly recording: Recording,
+    private readonly events: ExamEvent[],
+    private readonly clock: Clock,
+  ) {
     this.quantities = [
       { name: tr("Force"), unit: "N", digits: 2, colour: "#0b5394", values: recording.force_n },
       { name: tr("Depth"), unit: "mm", digits: 2, colour: "#7a4b00", values: recording.depth_mm },
       { name: tr("Handpiece"), unit: "rpm", digits: 0, colour: "#5b2a86", values: recording.rpm },
-      { name: tr("Tip speed"), unit: "mm/s", digits: 1, colour: "#00695c", values: recording.tip_mm_s },
+      {
+        name: tr("Tip speed"),
+        unit: "mm/s",
+        digits: 1,
+        colour: "#00695c",
+        values: recording.tip_mm_s,
+      },
     ];
     this.shown = [0, Math.max(clock.duration_s, recording.dt_s)];
-    section.append(make("div", { class: "buttons" }, button(tr("Whole exam"), {}, () => this.zoom_to(0, clock.duration_s)), button(tr("Zoom in"), { "aria-label": tr("Zoom in on the time") }, () => this.zoom(0.5)), button(tr("Zoom out"), { "aria-label": tr("Zoom out of the time") }, () => this.zoom(2))));
+    section.append(
+      make(
+        "div",
+        { class: "buttons" },
+        button(tr("Whole exam"), {}, () => this.zoom_to(0, clock.duration_s)),
+        button(tr("Zoom in"), { "aria-label": tr("Zoom in on the time") }, () => this.zoom(0.5)),
+        button(tr("Zoom out"), { "aria-label": tr("Zoom out of the time") }, () => this.zoom(2)),
+      ),
+    );
     this.quantities.forEach((quantity, i) => this.add(quantity, i));
     clock.on_time(() => this.follow());
     new ResizeObserver(() => {
@@ -59,38 +78,119 @@ export class Charts {
       sum += v;
     }
     const say = (v: number): string => number_text(v, quantity.digits);
-    const range = quantity.values.length > 0 ? tr("{0} to {1} {2}, mean {3} {2}", say(low), say(high), quantity.unit, say(sum / quantity.values.length)) : tr("nothing recorded");
+    const range =
+      quantity.values.length > 0
+        ? tr(
+            "{0} to {1} {2}, mean {3} {2}",
+            say(low),
+            say(high),
+            quantity.unit,
+            say(sum / quantity.values.length),
+          )
+        : tr("nothing recorded");
     const now = make("span", { class: "now" });
     this.values.push(now);
-    const place = make("div", { class: "plot", tabindex: "0", role: "img", "aria-label": tr("{} over time: {}. Arrow keys move the time, plus and minus zoom, 0 shows the whole exam.", quantity.name, range) });
-    const caption = make("figcaption", {}, make("b", {}, `${quantity.name}, ${quantity.unit}`), make("span", { class: "range" }, range), now);
+    const place = make("div", {
+      class: "plot",
+      tabindex: "0",
+      role: "img",
+      "aria-label": tr(
+        "{} over time: {}. Arrow keys move the time, plus and minus zoom, 0 shows the whole exam.",
+        quantity.name,
+        range,
+      ),
+    });
+    const caption = make(
+      "figcaption",
+      {},
+      make("b", {}, `${quantity.name}, ${quantity.unit}`),
+      make("span", { class: "range" }, range),
+      now,
+    );
     this.section.append(make("figure", { class: "chart" }, caption, place));
-    const time_axis: uPlot.Axis = { size: k_axis_px, font: "12px system-ui, sans-serif", stroke: "#444", grid: { stroke: "#e6e6e6", width: 1 }, ticks: { stroke: "#bbb", size: 4 }, values: (_u, splits) => splits.map((s) => clock_text(s)), incrs: [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600] };
+    const time_axis: uPlot.Axis = {
+      size: k_axis_px,
+      font: "12px system-ui, sans-serif",
+      stroke: "#444",
+      grid: { stroke: "#e6e6e6", width: 1 },
+      ticks: { stroke: "#bbb", size: 4 },
+      values: (_u, splits) => splits.map((s) => clock_text(s)),
+      incrs: [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600],
+    };
     const options: uPlot.Options = {
       width: this.width(),
       height: k_height_px + (last ? k_axis_px : 0) + (first ? k_labels_px : 0),
       padding: [first ? k_labels_px : 6, 18, last ? 0 : 6, 0],
       legend: { show: false },
-      scales: { x: { time: false }, y: { range: (_u, min, max) => (min === null || max === null ? [0, 1] : [Math.min(min, 0), max > min ? max * 1.06 : min + 1]) } },
-      cursor: { y: false, drag: { x: true, y: false, setScale: false }, points: { size: 7 }, sync: { key: "exam", setSeries: false } },
-      axes: [last ? time_axis : { ...time_axis, size: 0, values: (_u, splits) => splits.map(() => ""), ticks: { show: false } }, { size: 62, font: "12px system-ui, sans-serif", stroke: "#444", grid: { stroke: "#eee", width: 1 }, ticks: { show: false } }],
-      series: [{}, { label: quantity.name, stroke: quantity.colour, width: 1.3, fill: `${quantity.colour}18`, points: { show: false } }],
+      scales: {
+        x: { time: false },
+        y: {
+          range: (_u, min, max) =>
+            min === null || max === null
+              ? [0, 1]
+              : [Math.min(min, 0), max > min ? max * 1.06 : min + 1],
+        },
+      },
+      cursor: {
+        y: false,
+        drag: { x: true, y: false, setScale: false },
+        points: { size: 7 },
+        sync: { key: "exam", setSeries: false },
+      },
+      axes: [
+        last
+          ? time_axis
+          : {
+              ...time_axis,
+              size: 0,
+              values: (_u, splits) => splits.map(() => ""),
+              ticks: { show: false },
+            },
+        {
+          size: 62,
+          font: "12px system-ui, sans-serif",
+          stroke: "#444",
+          grid: { stroke: "#eee", width: 1 },
+          ticks: { show: false },
+        },
+      ],
+      series: [
+        {},
+        {
+          label: quantity.name,
+          stroke: quantity.colour,
+          width: 1.3,
+          fill: `${quantity.colour}18`,
+          points: { show: false },
+        },
+      ],
       hooks: {
         draw: [(u) => this.draw_marks(u, first)],
-        setSelect: [(u) => {
-          if (u.select.width < 4) return;
-          const [from, to] = [u.posToVal(u.select.left, "x"), u.posToVal(u.select.left + u.select.width, "x")];
-          u.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
-          this.zoom_to(from, to);
-        }],
+        setSelect: [
+          (u) => {
+            if (u.select.width < 4) return;
+            const [from, to] = [
+              u.posToVal(u.select.left, "x"),
+              u.posToVal(u.select.left + u.select.width, "x"),
+            ];
+            u.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+            this.zoom_to(from, to);
+          },
+        ],
       },
     };
-    const plot = new uPlot(options, [this.recording.t_s, quantity.values] as unknown as uPlot.AlignedData, place);
+    const plot = new uPlot(
+      options,
+      [this.recording.t_s, quantity.values] as unknown as uPlot.AlignedData,
+      place,
+    );
     const line = make("div", { class: "present", "aria-hidden": "true" });
     plot.over.append(line);
     this.lines.push(line);
     let pressed_x = 0;
-    plot.over.addEventListener("mousedown", (e) => { pressed_x = e.clientX; });
+    plot.over.addEventListener("mousedown", (e) => {
+      pressed_x = e.clientX;
+    });
     plot.over.addEventListener("click", (e) => {
       if (Math.abs(e.clientX - pressed_x) > 3) return;
       this.clock.pause();
@@ -139,7 +239,10 @@ export class Charts {
       this.zoom_to(low, low + span);
     }
     const i = this.recording.index(t);
-    this.quantities.forEach((q, k) => { this.values[k].textContent = `${time_text(t)}: ${number_text(q.values[i], q.digits)} ${q.unit}`; });
+    this.quantities.forEach((q, k) => {
+      this.values[k].textContent =
+        `${time_text(t)}: ${number_text(q.values[i], q.digits)} ${q.unit}`;
+    });
     this.place_lines();
   }
 
@@ -182,10 +285,14 @@ export class Charts {
 
 /** `200,000`, `−0.35` */
 export function number_text(v: number, digits: number): string {
-  return with_sign(v.toLocaleString("en-GB", { minimumFractionDigits: digits, maximumFractionDigits: digits })).replace("-", "−");
+  return with_sign(
+    v.toLocaleString("en-GB", { minimumFractionDigits: digits, maximumFractionDigits: digits }),
+  ).replace("-", "−");
 }
 
 /** `1:05` on the time axis, with tenths where they matter. */
 function clock_text(t_s: number): string {
-  return Number.isInteger(Math.round(t_s * 1000) / 1000) ? time_text(t_s).replace(/[.,]0$/, "") : time_text(t_s);
+  return Number.isInteger(Math.round(t_s * 1000) / 1000)
+    ? time_text(t_s).replace(/[.,]0$/, "")
+    : time_text(t_s);
 }

@@ -120,7 +120,8 @@ function bytes_of(base64: string): Uint8Array {
 export function unpack(packed: Packed): Numbers {
   const raw = packed.n === 0 ? new Uint8Array(0) : decompress(bytes_of(packed.zstd));
   const width = packed.type.endsWith("16") ? 2 : 1;
-  if (raw.length !== packed.n * width) throw new Error(`${packed.n} values of ${packed.type} announced, ${raw.length} bytes found`);
+  if (raw.length !== packed.n * width)
+    throw new Error(`${packed.n} values of ${packed.type} announced, ${raw.length} bytes found`);
   const aligned = raw.byteOffset % width === 0 ? raw : raw.slice();
   const array = { u8: Uint8Array, i8: Int8Array, u16: Uint16Array, i16: Int16Array }[packed.type];
   const values = new array(aligned.buffer as ArrayBuffer, aligned.byteOffset, packed.n);
@@ -133,6 +134,7 @@ export function read_data(root: Document): ReportData {
   const element = root.getElementById("cavum-data");
   if (!element) throw new Error("the report has no data");
   const data = JSON.parse(element.textContent ?? "") as ReportData;
-  if (data.schema !== 1) throw new Error(`the report's data are of schema ${data.schema}, this page reads 1`);
+  if (data.schema !== 1)
+    throw new Error(`the report's data are of schema ${data.schema}, this page reads 1`);
   return data;
 }

@@ -19,7 +19,11 @@ export function rgb_of(colour: string): [number, number, number] {
 }
 
 /** `+0.32 mm overcut`, `−0.15 mm left standing`, in words for the value under the pointer. */
-export function distance_text(mm: number, saturates_mm: number, edges: readonly number[] = k_distance_edges): string {
+export function distance_text(
+  mm: number,
+  saturates_mm: number,
+  edges: readonly number[] = k_distance_edges,
+): string {
   const value = `${mm < 0 ? "−" : "+"}${fixed(Math.abs(mm), 2)} mm`;
   if (Math.abs(mm) < edges[0] * saturates_mm) return tr("{}, on target", value);
   return mm > 0 ? tr("{} overcut", value) : tr("{} left standing", value);
@@ -33,7 +37,14 @@ function swatch(kind: "over" | "under" | "within", colour: string): HTMLElement 
 }
 
 /** The key: the bands from overcut to left standing, with the edges' numbers and their signs. */
-export function key_element(edges: readonly number[], whole: number, unit: string, digits: number, title: string, words: { over: string; under: string }): HTMLElement {
+export function key_element(
+  edges: readonly number[],
+  whole: number,
+  unit: string,
+  digits: number,
+  title: string,
+  words: { over: string; under: string },
+): HTMLElement {
   const key = document.createElement("figure");
   key.className = "key";
   const caption = document.createElement("figcaption");
@@ -48,9 +59,11 @@ export function key_element(edges: readonly number[], whole: number, unit: strin
     cell.append(swatch(kind, colour), number);
     row.append(cell);
   };
-  for (let i = k_bands - 1; i >= 0; --i) band("over", k_over[i], i === k_bands - 1 ? `> +${text(edges[i])}` : `+${text(edges[i])}`);
+  for (let i = k_bands - 1; i >= 0; --i)
+    band("over", k_over[i], i === k_bands - 1 ? `> +${text(edges[i])}` : `+${text(edges[i])}`);
   band("within", k_within, `±${text(edges[0])}`);
-  for (let i = 0; i < k_bands; ++i) band("under", k_under[i], i === k_bands - 1 ? `< −${text(edges[i])}` : `−${text(edges[i])}`);
+  for (let i = 0; i < k_bands; ++i)
+    band("under", k_under[i], i === k_bands - 1 ? `< −${text(edges[i])}` : `−${text(edges[i])}`);
   const end = (kind: string, word: string): HTMLElement => {
     const element = document.createElement("span");
     element.className = `end ${kind}`;

@@ -18,7 +18,10 @@ export class Growing {
       const { vertices: v, indices: i } = this.capacity;
       this.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * v), 3));
       this.geometry.setAttribute("normal", new THREE.BufferAttribute(new Float32Array(3 * v), 3));
-      this.geometry.setAttribute("tissue_colour", new THREE.BufferAttribute(new Uint8Array(3 * v), 3, true));
+      this.geometry.setAttribute(
+        "tissue_colour",
+        new THREE.BufferAttribute(new Uint8Array(3 * v), 3, true),
+      );
       this.geometry.setAttribute("marks", new THREE.BufferAttribute(new Float32Array(2 * v), 2));
       this.geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(i), 1));
     }
@@ -28,7 +31,8 @@ export class Growing {
       attribute.addUpdateRange(0, values.length);
       attribute.needsUpdate = true;
     };
-    const of = (name: string): THREE.BufferAttribute => this.geometry.getAttribute(name) as THREE.BufferAttribute;
+    const of = (name: string): THREE.BufferAttribute =>
+      this.geometry.getAttribute(name) as THREE.BufferAttribute;
     fill(of("position"), surface.positions);
     fill(of("normal"), surface.normals);
     fill(of("tissue_colour"), surface.colours);
@@ -48,7 +52,11 @@ export function geometry_of(surface: Surface): THREE.BufferGeometry {
   return geometry;
 }
 
-export function volume_texture(data: Uint8Array, size: Vec3, filter: THREE.MagnificationTextureFilter): THREE.Data3DTexture {
+export function volume_texture(
+  data: Uint8Array,
+  size: Vec3,
+  filter: THREE.MagnificationTextureFilter,
+): THREE.Data3DTexture {
   const texture = new THREE.Data3DTexture(data as Uint8Array<ArrayBuffer>, ...size);
   texture.format = THREE.RedFormat;
   texture.type = THREE.UnsignedByteType;

@@ -1,7 +1,7 @@
 // The report's page: fills in the 3D view, the scrubber and the charts, and wires the buttons that jump to a moment. Everything else in the
 // document was written by the program and stays as it is.
 import { Charts, number_text } from "./charts.ts";
-import { BesideView } from "./beside.ts";
+import { AdjacentView } from "./compared.ts";
 import { Clock } from "./clock.ts";
 import { read_data, type ReportData, type Vec3 } from "./data.ts";
 import { k_distance_edges, k_heat_edges } from "./deviation.ts";
@@ -32,12 +32,17 @@ function webgl_works(): boolean {
 
 interface Shown {
   view: ToothView;
-  beside: BesideView | null;
+  beside: AdjacentView | null;
 }
 
 function tooth_in(section: HTMLElement, data: ReportData, clock: Clock | null): Shown | null {
   if (!webgl_works()) {
-    say_why(section, tr("The tooth cannot be shown in 3D: this browser offers no WebGL 2 here (it may be switched off, or the graphics driver may not support it). Everything else on this page works."));
+    say_why(
+      section,
+      tr(
+        "The tooth cannot be shown in 3D: this browser offers no WebGL 2 here (it may be switched off, or the graphics driver may not support it). Everything else on this page works.",
+      ),
+    );
     return null;
   }
   const heat = data.kind === "class";
@@ -45,16 +50,38 @@ function tooth_in(section: HTMLElement, data: ReportData, clock: Clock | null): 
   const whole = heat ? 1 : (data.scale_mm ?? 0.5);
   const field = new ToothField(data);
   const canvas = make("canvas");
-  const controls = new ToothControls(canvas, field, data, { edges, whole, with_instrument: (data.instruments ?? []).length > 0, go_to: clock ? (t) => { clock.pause(); clock.set(t); } : undefined });
+  const controls = new ToothControls(canvas, field, data, {
+    edges,
+    whole,
+    with_instrument: (data.instruments ?? []).length > 0,
+    go_to: clock
+      ? (t) => {
+          clock.pause();
+          clock.set(t);
+        }
+      : undefined,
+  });
   section.append(controls.element);
   try {
     const view = new ToothView(canvas, field, data, { edges, whole });
     controls.connect(view);
     section.querySelector(".fallback")?.remove();
-    return { view, beside: data.beside && clock ? new BesideView(controls.frame, view, data, data.beside, { edges, whole }, clock) : null };
+    return {
+      view,
+      beside:
+        data.beside && clock
+          ? new AdjacentView(controls.frame, view, data, data.beside, { edges, whole }, clock)
+          : null,
+    };
   } catch (error) {
     controls.element.remove();
-    say_why(section, tr("The tooth cannot be shown in 3D: {}. Everything else on this page works.", error instanceof Error ? error.message : String(error)));
+    say_why(
+      section,
+      tr(
+        "The tooth cannot be shown in 3D: {}. Everything else on this page works.",
+        error instanceof Error ? error.message : String(error),
+      ),
+    );
     return null;
   }
 }
@@ -80,7 +107,11 @@ function hold_wide_tables(): void {
     const name = table.getAttribute("aria-label") ?? table.caption?.textContent ?? tr("Table");
     new ResizeObserver(() => {
       const wide = holder.scrollWidth > holder.clientWidth + 1;
-      for (const [attribute, value] of [["tabindex", "0"], ["role", "region"], ["aria-label", name]]) {
+      for (const [attribute, value] of [
+        ["tabindex", "0"],
+        ["role", "region"],
+        ["aria-label", name],
+      ]) {
         if (wide) holder.setAttribute(attribute, value);
         else holder.removeAttribute(attribute);
       }
@@ -95,7 +126,9 @@ function start(): void {
   document.documentElement.classList.add("scripted");
   document.documentElement.classList.toggle("high-contrast", data.high_contrast === true);
   const session = data.kind === "session" && data.motion !== undefined;
-  const clock = session ? new Clock(Math.max(data.duration_s ?? 0, data.beside?.duration_s ?? 0)) : null;
+  const clock = session
+    ? new Clock(Math.max(data.duration_s ?? 0, data.beside?.duration_s ?? 0))
+    : null;
   const tooth = document.getElementById("tooth-3d");
   const shown = tooth ? tooth_in(tooth, data, clock) : null;
   const view = shown?.view;
@@ -110,16 +143,33 @@ function start(): void {
   const measured = (t: number): string => {
     const at = recording.at(t);
     return at.depth_mm < 0
-      ? tr("{} N · {} mm above the opening · {} rpm", fixed(at.force_n, 2), fixed(-at.depth_mm, 2), number_text(at.rpm, 0))
-      : tr("{} N · {} mm deep · {} rpm", fixed(at.force_n, 2), fixed(at.depth_mm, 2), number_text(at.rpm, 0));
+      ? tr(
+          "{} N · {} mm above the opening · {} rpm",
+          fixed(at.force_n, 2),
+          fixed(-at.depth_mm, 2),
+          number_text(at.rpm, 0),
+        )
+      : tr(
+          "{} N · {} mm deep · {} rpm",
+          fixed(at.force_n, 2),
+          fixed(at.depth_mm, 2),
+          number_text(at.rpm, 0),
+        );
   };
-  const player = new Player(clock, events, data.moments ?? [], (site_mm) => view?.mark(site_mm), measured);
+  const player = new Player(
+    clock,
+    events,
+    data.moments ?? [],
+    (site_mm) => view?.mark(site_mm),
+    measured,
+  );
   if (tooth) {
     const frame = tooth.querySelector(".side-by-side, .view");
     if (frame) frame.after(player.element);
     else tooth.append(player.element);
   }
-  if (shown?.beside && data.beside) player.set_beside(data.beside.name, shown.beside.axis, shown.beside.choice);
+  if (shown?.beside && data.beside)
+    player.add_adjacent(data.beside.name, shown.beside.axis, shown.beside.choice);
   const charts = document.getElementById("charts");
   if (charts && recording.n > 0) {
     new Charts(charts, recording, events, clock);

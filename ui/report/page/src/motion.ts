@@ -29,13 +29,28 @@ export class Recording {
     this.dt_s = motion.dt_s;
     this.n = motion.n;
     this.t_s = Float64Array.from({ length: motion.n }, (_, i) => i * motion.dt_s);
-    this.tip = [scaled(unpack(motion.x_um), 1e-3), scaled(unpack(motion.y_um), 1e-3), scaled(unpack(motion.z_um), 1e-3)];
-    this.axis = [scaled(unpack(motion.ax), 1 / 127), scaled(unpack(motion.ay), 1 / 127), scaled(unpack(motion.az), 1 / 127)];
+    this.tip = [
+      scaled(unpack(motion.x_um), 1e-3),
+      scaled(unpack(motion.y_um), 1e-3),
+      scaled(unpack(motion.z_um), 1e-3),
+    ];
+    this.axis = [
+      scaled(unpack(motion.ax), 1 / 127),
+      scaled(unpack(motion.ay), 1 / 127),
+      scaled(unpack(motion.az), 1 / 127),
+    ];
     this.force_n = scaled(unpack(motion.force_cn), 0.01);
     this.depth_mm = scaled(unpack(motion.depth_um), 1e-3);
     this.rpm = scaled(unpack(motion.rpm10), 10);
     this.tip_mm_s = scaled(unpack(motion.tip_50um_s), 0.05);
-    for (const column of [...this.tip, ...this.axis, this.force_n, this.depth_mm, this.rpm, this.tip_mm_s])
+    for (const column of [
+      ...this.tip,
+      ...this.axis,
+      this.force_n,
+      this.depth_mm,
+      this.rpm,
+      this.tip_mm_s,
+    ])
       if (column.length !== this.n) throw new Error("the motion's columns differ in length");
   }
 

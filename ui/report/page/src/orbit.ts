@@ -35,22 +35,33 @@ export class Orbit {
   private twin: Orbit | null = null;
 
   /** `home`: what the view shows first; `whole`: all there is. `changed` is called after every move. */
-  constructor(private readonly element: HTMLElement, private readonly home: Sphere, private readonly whole: Sphere, private readonly changed: () => void) {
+  constructor(
+    private readonly element: HTMLElement,
+    private readonly home: Sphere,
+    private readonly whole: Sphere,
+    private readonly changed: () => void,
+  ) {
     this.reset();
     element.addEventListener("pointerdown", (e) => {
       element.setPointerCapture(e.pointerId);
       this.pointers.set(e.pointerId, { x: e.clientX, y: e.clientY });
     });
-    const end = (e: PointerEvent): void => { this.pointers.delete(e.pointerId); };
+    const end = (e: PointerEvent): void => {
+      this.pointers.delete(e.pointerId);
+    };
     element.addEventListener("pointerup", end);
     element.addEventListener("pointercancel", end);
     element.addEventListener("pointermove", (e) => this.drag(e));
     element.addEventListener("contextmenu", (e) => e.preventDefault());
-    element.addEventListener("wheel", (e) => {
-      if (document.activeElement !== element && !e.ctrlKey) return;
-      e.preventDefault();
-      this.zoom(Math.exp(-e.deltaY * 0.0012));
-    }, { passive: false });
+    element.addEventListener(
+      "wheel",
+      (e) => {
+        if (document.activeElement !== element && !e.ctrlKey) return;
+        e.preventDefault();
+        this.zoom(Math.exp(-e.deltaY * 0.0012));
+      },
+      { passive: false },
+    );
     element.addEventListener("keydown", (e) => this.key(e));
   }
 
@@ -106,7 +117,9 @@ export class Orbit {
 
   private fitting(): number {
     const half = (this.camera.fov * Math.PI) / 360;
-    return this.home.radius / Math.sin(Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect)));
+    return (
+      this.home.radius / Math.sin(Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect)))
+    );
   }
 
   private drag(e: PointerEvent): void {
@@ -120,7 +133,8 @@ export class Orbit {
       this.pan(now.x - before.x, now.y - before.y);
     } else {
       const other = others[0][1];
-      const span = (p: { x: number; y: number }): number => Math.max(Math.hypot(p.x - other.x, p.y - other.y), 10);
+      const span = (p: { x: number; y: number }): number =>
+        Math.max(Math.hypot(p.x - other.x, p.y - other.y), 10);
       this.zoom(span(now) / span(before));
       this.pan((now.x - before.x) / 2, (now.y - before.y) / 2);
     }
@@ -128,7 +142,9 @@ export class Orbit {
   }
 
   private pan(dx: number, dy: number): void {
-    const mm_per_px = (2 * this.distance * Math.tan((this.camera.fov * Math.PI) / 360)) / Math.max(this.element.clientHeight, 1);
+    const mm_per_px =
+      (2 * this.distance * Math.tan((this.camera.fov * Math.PI) / 360)) /
+      Math.max(this.element.clientHeight, 1);
     const right = new THREE.Vector3().setFromMatrixColumn(this.camera.matrix, 0);
     const up = new THREE.Vector3().setFromMatrixColumn(this.camera.matrix, 1);
     this.centre.addScaledVector(right, -dx * mm_per_px).addScaledVector(up, dy * mm_per_px);
@@ -138,7 +154,12 @@ export class Orbit {
   private key(e: KeyboardEvent): void {
     if (e.ctrlKey || e.altKey || e.metaKey) return;
     const d = k_turn_key_deg;
-    const turns: { [key: string]: [number, number] } = { ArrowLeft: [-d, 0], ArrowRight: [d, 0], ArrowUp: [0, d], ArrowDown: [0, -d] };
+    const turns: { [key: string]: [number, number] } = {
+      ArrowLeft: [-d, 0],
+      ArrowRight: [d, 0],
+      ArrowUp: [0, d],
+      ArrowDown: [0, -d],
+    };
     if (turns[e.key]) this.turn(...turns[e.key]);
     else if (e.key === "+" || e.key === "=") this.zoom(k_zoom_key);
     else if (e.key === "-" || e.key === "_") this.zoom(1 / k_zoom_key);
@@ -163,7 +184,10 @@ export class Orbit {
   private stand(): void {
     const a = (this.pose.azimuth_deg * Math.PI) / 180;
     const e = (this.pose.elevation_deg * Math.PI) / 180;
-    this.camera.position.set(Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e)).multiplyScalar(this.distance).add(this.centre);
+    this.camera.position
+      .set(Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e))
+      .multiplyScalar(this.distance)
+      .add(this.centre);
     this.camera.up.set(-Math.sin(e) * Math.cos(a), -Math.sin(e) * Math.sin(a), Math.cos(e));
     this.camera.lookAt(this.centre);
     const reach = 3 * this.whole.radius; // the instrument stands out of the tooth

@@ -53,7 +53,12 @@ function distance_at(field: ToothField, p_mm: Vec3): number | null {
 }
 
 /** What a line from `from_mm` along the unit vector `along` meets first; null when it misses the tooth. */
-export function probe(field: ToothField, from_mm: Vec3, along: Vec3, clip: Clip | null): Reading | null {
+export function probe(
+  field: ToothField,
+  from_mm: Vec3,
+  along: Vec3,
+  clip: Clip | null,
+): Reading | null {
   // where the line runs through the lattice and what the cut leaves of it
   let near = 0;
   let far = Infinity;
@@ -81,7 +86,8 @@ export function probe(field: ToothField, from_mm: Vec3, along: Vec3, clip: Clip 
   }
   if (near >= far) return null;
   const point = (s: number): Vec3 => [0, 1, 2].map((a) => from_mm[a] + along[a] * s) as Vec3;
-  if (section && share_at(field, point(near + 1e-6)) > k_level) return reading(field, point(near), along, true);
+  if (section && share_at(field, point(near + 1e-6)) > k_level)
+    return reading(field, point(near), along, true);
   const step = field.cell_mm * 0.5;
   for (let s = near; s <= far; s += step) {
     if (share_at(field, point(s)) <= k_level) continue;
@@ -102,15 +108,26 @@ function reading(field: ToothField, at: Vec3, along: Vec3, section: boolean): Re
   const removed = section ? 0 : blend(field.untouched, field.size, cells) - share_at(field, at);
   const cut = removed > 0.08;
   // the tissue just below the surface
-  const below = to_cells(field, at.map((v, a) => v + along[a] * field.cell_mm * 0.7) as Vec3).map((v, a) => Math.min(Math.max(Math.round(v), 0), field.size[a] - 1)) as Vec3;
+  const below = to_cells(field, at.map((v, a) => v + along[a] * field.cell_mm * 0.7) as Vec3).map(
+    (v, a) => Math.min(Math.max(Math.round(v), 0), field.size[a] - 1),
+  ) as Vec3;
   const tissue = field.tissue[(below[2] * field.size[1] + below[1]) * field.size[0] + below[0]];
-  return { place_mm: at, section, distance_mm: distance_at(field, at), cut, tissue, cut_at_s: cut ? field.removed_at_s(cells) : null };
+  return {
+    place_mm: at,
+    section,
+    distance_mm: distance_at(field, at),
+    cut,
+    tissue,
+    cut_at_s: cut ? field.removed_at_s(cells) : null,
+  };
 }
 
 /** Unit vector out of the tissue at a place. */
 export function outward_at(field: ToothField, p_mm: Vec3): Vec3 {
   const slope = [0, 1, 2].map((a) => {
-    const [low, high] = [-1, 1].map((s) => share_at(field, p_mm.map((v, b) => (a === b ? v + s * field.cell_mm : v)) as Vec3));
+    const [low, high] = [-1, 1].map((s) =>
+      share_at(field, p_mm.map((v, b) => (a === b ? v + s * field.cell_mm : v)) as Vec3),
+    );
     return low - high;
   });
   const length = Math.hypot(...slope) || 1;
@@ -122,11 +139,11 @@ export function in_sight(field: ToothField, place_mm: Vec3, towards: Vec3): bool
   const step = field.cell_mm * 0.5;
   const reach = field.cell_mm * Math.max(...field.size);
   for (let s = 4 * field.cell_mm; s < reach; s += step)
-    if (share_at(field, [0, 1, 2].map((a) => place_mm[a] + towards[a] * s) as Vec3) > k_level) return false;
+    if (share_at(field, [0, 1, 2].map((a) => place_mm[a] + towards[a] * s) as Vec3) > k_level)
+      return false;
   return true;
 }
 
 function dot(a: Vec3, b: Vec3): number {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-

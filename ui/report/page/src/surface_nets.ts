@@ -72,18 +72,42 @@ export class SurfaceNets {
    * The surface at `level` of the edges in `inside`, without those in `outside`. `accept` (two sample values) may refuse an edge.
    * Edges on the lattice's outermost samples have no cube beyond them and are left out: keep the field empty there.
    */
-  mesh(field: Field, level: number, inside: Region, outside?: Region, accept?: (a: number, b: number) => boolean): Mesh {
+  mesh(
+    field: Field,
+    level: number,
+    inside: Region,
+    outside?: Region,
+    accept?: (a: number, b: number) => boolean,
+  ): Mesh {
     const [nx, ny, nz] = this.size;
     const values = field.values;
     const step = [1, nx, nx * ny];
     for (let i = 0; i < this.touched.count; ++i) this.vertex_of[this.touched.data[i]] = 0;
-    this.touched.count = this.positions.count = this.normals.count = this.cubes.count = this.triangles.count = 0;
+    this.touched.count =
+      this.positions.count =
+      this.normals.count =
+      this.cubes.count =
+      this.triangles.count =
+        0;
 
-    const low = [Math.max(inside.low[0], 0), Math.max(inside.low[1], 0), Math.max(inside.low[2], 0)];
-    const high = [Math.min(inside.high[0], nx), Math.min(inside.high[1], ny), Math.min(inside.high[2], nz)];
+    const low = [
+      Math.max(inside.low[0], 0),
+      Math.max(inside.low[1], 0),
+      Math.max(inside.low[2], 0),
+    ];
+    const high = [
+      Math.min(inside.high[0], nx),
+      Math.min(inside.high[1], ny),
+      Math.min(inside.high[2], nz),
+    ];
     for (let z = low[2]; z < high[2]; ++z) {
       for (let y = low[1]; y < high[1]; ++y) {
-        const within_zy = outside !== undefined && z >= outside.low[2] && z < outside.high[2] && y >= outside.low[1] && y < outside.high[1];
+        const within_zy =
+          outside !== undefined &&
+          z >= outside.low[2] &&
+          z < outside.high[2] &&
+          y >= outside.low[1] &&
+          y < outside.high[1];
         let at = (z * ny + y) * nx + low[0];
         for (let x = low[0]; x < high[0]; ++x, ++at) {
           if (within_zy && x >= outside.low[0] && x < outside.high[0]) {
@@ -94,11 +118,35 @@ export class SurfaceNets {
           const a = values[at];
           const solid = a > level;
           // x edge, between cubes that differ in y and z
-          if (x + 1 < nx && y > 0 && z > 0 && y + 1 < ny && z + 1 < nz && values[at + 1] > level !== solid && (!accept || accept(a, values[at + 1])))
+          if (
+            x + 1 < nx &&
+            y > 0 &&
+            z > 0 &&
+            y + 1 < ny &&
+            z + 1 < nz &&
+            values[at + 1] > level !== solid &&
+            (!accept || accept(a, values[at + 1]))
+          )
             this.quad(field, level, at, at - nx, at - step[2] - nx, at - step[2], solid);
-          if (y + 1 < ny && x > 0 && z > 0 && x + 1 < nx && z + 1 < nz && values[at + nx] > level !== solid && (!accept || accept(a, values[at + nx])))
+          if (
+            y + 1 < ny &&
+            x > 0 &&
+            z > 0 &&
+            x + 1 < nx &&
+            z + 1 < nz &&
+            values[at + nx] > level !== solid &&
+            (!accept || accept(a, values[at + nx]))
+          )
             this.quad(field, level, at, at - step[2], at - step[2] - 1, at - 1, solid);
-          if (z + 1 < nz && x > 0 && y > 0 && x + 1 < nx && y + 1 < ny && values[at + step[2]] > level !== solid && (!accept || accept(a, values[at + step[2]])))
+          if (
+            z + 1 < nz &&
+            x > 0 &&
+            y > 0 &&
+            x + 1 < nx &&
+            y + 1 < ny &&
+            values[at + step[2]] > level !== solid &&
+            (!accept || accept(a, values[at + step[2]]))
+          )
             this.quad(field, level, at, at - 1, at - 1 - nx, at - nx, solid);
         }
       }
@@ -111,7 +159,15 @@ export class SurfaceNets {
     };
   }
 
-  private quad(field: Field, level: number, c0: number, c1: number, c2: number, c3: number, solid: boolean): void {
+  private quad(
+    field: Field,
+    level: number,
+    c0: number,
+    c1: number,
+    c2: number,
+    c3: number,
+    solid: boolean,
+  ): void {
     const a = this.vertex(field, level, c0);
     const b = this.vertex(field, level, c1);
     const c = this.vertex(field, level, c2);

@@ -17,7 +17,9 @@ export class Surroundings {
 
   constructor(private readonly field: ToothField) {
     this.size = field.size.map((n) => Math.ceil(n / k_per_cell) + 2 * k_margin) as Vec3;
-    this.low_mm = field.origin_mm.map((o) => o - field.cell_mm * (0.5 + k_margin * k_per_cell)) as Vec3;
+    this.low_mm = field.origin_mm.map(
+      (o) => o - field.cell_mm * (0.5 + k_margin * k_per_cell),
+    ) as Vec3;
     this.cell_mm = field.cell_mm * k_per_cell;
     const n = this.size[0] * this.size[1] * this.size[2];
     this.bytes = new Uint8Array(n);
@@ -33,7 +35,9 @@ export class Surroundings {
     const moving = this.field.moving;
     if (!moving) return;
     const low = moving.low.map((v) => Math.floor(v / k_per_cell)) as Vec3;
-    const high = moving.low.map((v, a) => Math.floor((v + moving.size[a] - 1) / k_per_cell) + 1) as Vec3;
+    const high = moving.low.map(
+      (v, a) => Math.floor((v + moving.size[a] - 1) / k_per_cell) + 1,
+    ) as Vec3;
     this.average(low, high);
     this.spread();
   }
@@ -49,9 +53,11 @@ export class Surroundings {
           for (let k = z * k_per_cell; k < Math.min((z + 1) * k_per_cell, nz); ++k)
             for (let j = y * k_per_cell; j < Math.min((y + 1) * k_per_cell, ny); ++j) {
               const row = (k * ny + j) * nx;
-              for (let i = x * k_per_cell; i < Math.min((x + 1) * k_per_cell, nx); ++i) sum += values[row + i];
+              for (let i = x * k_per_cell; i < Math.min((x + 1) * k_per_cell, nx); ++i)
+                sum += values[row + i];
             }
-          this.mean[((z + k_margin) * this.size[1] + y + k_margin) * this.size[0] + x + k_margin] = sum / k_per_cell ** 3;
+          this.mean[((z + k_margin) * this.size[1] + y + k_margin) * this.size[0] + x + k_margin] =
+            sum / k_per_cell ** 3;
         }
   }
 

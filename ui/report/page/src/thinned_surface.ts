@@ -8,7 +8,11 @@ const k_cells = 2; // along each edge of a block whose vertices go together
  * Triangles of `surface`, a field of `size` samples, with all vertices of a block of cells in one place when they face the same way. Vertices in and
  * around `whole` stay, so that what is meshed apart there still fits.
  */
-export function thinned(surface: Surface, size: readonly [number, number, number], whole: Region | null): Uint32Array {
+export function thinned(
+  surface: Surface,
+  size: readonly [number, number, number],
+  whole: Region | null,
+): Uint32Array {
   const [nx, ny] = size;
   const across = [Math.ceil(nx / k_cells), Math.ceil(ny / k_cells)];
   const first_of = new Map<number, number>();
@@ -31,7 +35,11 @@ export function thinned(surface: Surface, size: readonly [number, number, number
   const triangles = new Uint32Array(surface.triangles.length);
   let n = 0;
   for (let t = 0; t < surface.triangles.length; t += 3) {
-    const [a, b, c] = [to[surface.triangles[t]], to[surface.triangles[t + 1]], to[surface.triangles[t + 2]]];
+    const [a, b, c] = [
+      to[surface.triangles[t]],
+      to[surface.triangles[t + 1]],
+      to[surface.triangles[t + 2]],
+    ];
     if (a === b || b === c || c === a) continue;
     triangles[n++] = a;
     triangles[n++] = b;

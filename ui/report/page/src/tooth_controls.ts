@@ -8,17 +8,26 @@ import { k_views } from "./orbit.ts";
 import type { Reading } from "./probe.ts";
 import type { ToothField } from "./tooth_field.ts";
 import type { ToothView } from "./view.ts";
-import { fixed, said, tr } from "./words.ts";
+import { fixed, noop, tr } from "./words.ts";
 
-const k_cuts: { [name: string]: { text: string; normal: Vec3; azimuth_deg: number; elevation_deg: number } } = {
-  buccal: { text: said("from buccal"), normal: [0, 1, 0], azimuth_deg: 75, elevation_deg: 22 },
-  lingual: { text: said("from lingual"), normal: [0, -1, 0], azimuth_deg: -75, elevation_deg: 22 },
-  mesial: { text: said("from mesial"), normal: [1, 0, 0], azimuth_deg: 15, elevation_deg: 22 },
-  distal: { text: said("from distal"), normal: [-1, 0, 0], azimuth_deg: 165, elevation_deg: 22 },
-  occlusal: { text: said("from occlusal"), normal: [0, 0, 1], azimuth_deg: -90, elevation_deg: 75 },
+const k_cuts: {
+  [name: string]: { text: string; normal: Vec3; azimuth_deg: number; elevation_deg: number };
+} = {
+  buccal: { text: noop("from buccal"), normal: [0, 1, 0], azimuth_deg: 75, elevation_deg: 22 },
+  lingual: { text: noop("from lingual"), normal: [0, -1, 0], azimuth_deg: -75, elevation_deg: 22 },
+  mesial: { text: noop("from mesial"), normal: [1, 0, 0], azimuth_deg: 15, elevation_deg: 22 },
+  distal: { text: noop("from distal"), normal: [-1, 0, 0], azimuth_deg: 165, elevation_deg: 22 },
+  occlusal: { text: noop("from occlusal"), normal: [0, 0, 1], azimuth_deg: -90, elevation_deg: 75 },
 };
 
-const k_view_names: { [name: string]: string } = { oblique: said("Oblique"), occlusal: said("Occlusal"), buccal: said("Buccal"), lingual: said("Lingual"), mesial: said("Mesial"), distal: said("Distal") };
+const k_view_names: { [name: string]: string } = {
+  oblique: noop("Oblique"),
+  occlusal: noop("Occlusal"),
+  buccal: noop("Buccal"),
+  lingual: noop("Lingual"),
+  mesial: noop("Mesial"),
+  distal: noop("Distal"),
+};
 
 export interface ControlsOptions {
   edges: readonly number[];
@@ -38,13 +47,34 @@ export class ToothControls {
   private view!: ToothView;
   private last: Reading | null = null;
 
-  constructor(readonly canvas: HTMLCanvasElement, private readonly field: ToothField, private readonly data: ReportData, private readonly options: ControlsOptions) {
+  constructor(
+    readonly canvas: HTMLCanvasElement,
+    private readonly field: ToothField,
+    private readonly data: ReportData,
+    private readonly options: ControlsOptions,
+  ) {
     canvas.tabIndex = 0;
     canvas.setAttribute("role", "application");
-    canvas.setAttribute("aria-label", tr("The tooth in 3D. Arrow keys turn it, plus and minus zoom, Home shows it all, Enter reads the value in the middle."));
+    canvas.setAttribute(
+      "aria-label",
+      tr(
+        "The tooth in 3D. Arrow keys turn it, plus and minus zoom, Home shows it all, Enter reads the value in the middle.",
+      ),
+    );
     this.readout = make("output", { class: "readout", "aria-live": "polite" });
-    this.hint = make("p", { class: "hint", "aria-hidden": "true" }, tr("Drag to turn, two fingers or shift to move; click, then the wheel zooms."));
-    this.frame = make("div", { class: "view" }, canvas, make("div", { class: "cross", "aria-hidden": "true" }), this.hint, this.readout);
+    this.hint = make(
+      "p",
+      { class: "hint", "aria-hidden": "true" },
+      tr("Drag to turn, two fingers or shift to move; click, then the wheel zooms."),
+    );
+    this.frame = make(
+      "div",
+      { class: "view" },
+      canvas,
+      make("div", { class: "cross", "aria-hidden": "true" }),
+      this.hint,
+      this.readout,
+    );
     this.panel = make("div", { class: "panel" });
     this.element = make("div", { class: "stage" }, this.frame, this.panel);
   }
@@ -55,35 +85,86 @@ export class ToothControls {
     const { panel, canvas, data, options } = this;
     const views = make("div", { class: "views", role: "group", "aria-label": tr("Views") });
     for (const name of Object.keys(k_views))
-      views.append(button(tr(k_view_names[name] ?? name), {}, () => {
-        if (name === "oblique") view.orbit.reset();
-        else view.orbit.look(k_views[name]);
-      }));
-    this.frame.append(make("div", { class: "zoom" }, button("+", { "aria-label": tr("Zoom in") }, () => view.orbit.zoom(1.25)), button("−", { "aria-label": tr("Zoom out") }, () => view.orbit.zoom(0.8)), button("□", { "aria-label": tr("Whole tooth"), title: tr("Whole tooth") }, () => view.orbit.show_whole())));
+      views.append(
+        button(tr(k_view_names[name] ?? name), {}, () => {
+          if (name === "oblique") view.orbit.reset();
+          else view.orbit.look(k_views[name]);
+        }),
+      );
+    this.frame.append(
+      make(
+        "div",
+        { class: "zoom" },
+        button("+", { "aria-label": tr("Zoom in") }, () => view.orbit.zoom(1.25)),
+        button("−", { "aria-label": tr("Zoom out") }, () => view.orbit.zoom(0.8)),
+        button("□", { "aria-label": tr("Whole tooth"), title: tr("Whole tooth") }, () =>
+          view.orbit.show_whole(),
+        ),
+      ),
+    );
 
     const heat = data.kind === "class";
     const key = heat
-      ? key_element(options.edges, 100, tr("% of the class"), 0, tr("Deviation from the target"), { over: tr("overcut here"), under: tr("left standing here") })
-      : key_element(options.edges, options.whole, "mm", options.whole * options.edges[0] < 0.1 ? 2 : 1, tr("Distance of the cut surface from the target"), { over: tr("overcut"), under: tr("left standing") });
+      ? key_element(options.edges, 100, tr("% of the class"), 0, tr("Deviation from the target"), {
+          over: tr("overcut here"),
+          under: tr("left standing here"),
+        })
+      : key_element(
+          options.edges,
+          options.whole,
+          "mm",
+          options.whole * options.edges[0] < 0.1 ? 2 : 1,
+          tr("Distance of the cut surface from the target"),
+          { over: tr("overcut"), under: tr("left standing") },
+        );
     if (!heat) {
-      const untouched = make("p", { class: "untouched" }, make("span", { class: "swatch untouched" }), tr("target left standing, surface untouched"));
+      const untouched = make(
+        "p",
+        { class: "untouched" },
+        make("span", { class: "swatch untouched" }),
+        tr("target left standing, surface untouched"),
+      );
       key.append(untouched);
     }
     // the deviation is drawn over paler tissues: what stands beside the tooth is told in either colouring
-    const there = [...new Set(this.field.tissue)].sort((a, b) => a - b).map((id) => data.tissues[id]).filter((t) => t && t.name !== "air");
-    const tissues = tissue_key(there), beside = tissue_key(there.filter((t) => t.beside));
+    const there = [...new Set(this.field.tissue)]
+      .sort((a, b) => a - b)
+      .map((id) => data.tissues[id])
+      .filter((t) => t && t.name !== "air");
+    const tissues = tissue_key(there),
+      beside = tissue_key(there.filter((t) => t.beside));
     tissues.hidden = true;
-    const colouring = radios(tr("Colour by"), "colouring", [["deviation", heat ? tr("the class") : tr("deviation")], ["tissue", tr("tissue")]], "deviation", (v) => {
-      view.set_colouring(v === "deviation");
-      key.hidden = v !== "deviation";
-      tissues.hidden = v === "deviation";
-      beside.hidden = v !== "deviation";
-    });
-    const show = make("fieldset", { class: "choices" }, make("legend", {}, tr("Show")), checkbox(tr("target outline"), false, (on) => view.set_target(on)));
-    if (options.with_instrument) show.append(checkbox(tr("instrument"), true, (on) => view.set_instrument(on)));
+    const colouring = radios(
+      tr("Colour by"),
+      "colouring",
+      [
+        ["deviation", heat ? tr("the class") : tr("deviation")],
+        ["tissue", tr("tissue")],
+      ],
+      "deviation",
+      (v) => {
+        view.set_colouring(v === "deviation");
+        key.hidden = v !== "deviation";
+        tissues.hidden = v === "deviation";
+        beside.hidden = v !== "deviation";
+      },
+    );
+    const show = make(
+      "fieldset",
+      { class: "choices" },
+      make("legend", {}, tr("Show")),
+      checkbox(tr("target outline"), false, (on) => view.set_target(on)),
+    );
+    if (options.with_instrument)
+      show.append(checkbox(tr("instrument"), true, (on) => view.set_instrument(on)));
     panel.append(views, colouring, show, this.cut_away());
     if (heat) {
-      const depths = dropdown(tr("Deviation of more than"), [0.1, 0.2, 0.3, 0.5, 1].map((d) => [String(d), `${fixed(d, 1)} mm`] as [string, string]), "0.1", (v) => view.set_heat_depth(Number(v)));
+      const depths = dropdown(
+        tr("Deviation of more than"),
+        [0.1, 0.2, 0.3, 0.5, 1].map((d) => [String(d), `${fixed(d, 1)} mm`] as [string, string]),
+        "0.1",
+        (v) => view.set_heat_depth(Number(v)),
+      );
       view.set_heat_depth(0.1);
       panel.append(depths);
     }
@@ -95,8 +176,12 @@ export class ToothControls {
     view.redraw();
     canvas.addEventListener("pointerdown", () => this.hint.remove(), { once: true });
     const rest = (): void => canvas.parentElement!.classList.remove("keyboard");
-    canvas.addEventListener("pointermove", (e) => { if (!view.orbit.dragging && e.pointerType === "mouse") this.read(e.offsetX, e.offsetY); });
-    canvas.addEventListener("pointerup", (e) => { if (e.pointerType !== "mouse") this.read(e.offsetX, e.offsetY); });
+    canvas.addEventListener("pointermove", (e) => {
+      if (!view.orbit.dragging && e.pointerType === "mouse") this.read(e.offsetX, e.offsetY);
+    });
+    canvas.addEventListener("pointerup", (e) => {
+      if (e.pointerType !== "mouse") this.read(e.offsetX, e.offsetY);
+    });
     canvas.addEventListener("pointerleave", () => this.say(null));
     canvas.addEventListener("pointerdown", rest);
     canvas.addEventListener("blur", rest);
@@ -112,11 +197,19 @@ export class ToothControls {
 
   private cut_away(): HTMLElement {
     const { view, field } = this;
-    const [low, high] = [0, 1].map((end) => field.origin_mm.map((o, a) => o + end * (field.size[a] - 1) * field.cell_mm)) as [Vec3, Vec3];
-    const middle = (field.moving ?? field.box);
-    const place = middle.low.map((v, a) => field.origin_mm[a] + (v + (middle.size[a] - 1) / 2) * field.cell_mm);
+    const [low, high] = [0, 1].map((end) =>
+      field.origin_mm.map((o, a) => o + end * (field.size[a] - 1) * field.cell_mm),
+    ) as [Vec3, Vec3];
+    const middle = field.moving ?? field.box;
+    const place = middle.low.map(
+      (v, a) => field.origin_mm[a] + (v + (middle.size[a] - 1) / 2) * field.cell_mm,
+    );
     let chosen = "";
-    const slider = make("input", { type: "range", step: "0.05", "aria-label": tr("Place of the cut") });
+    const slider = make("input", {
+      type: "range",
+      step: "0.05",
+      "aria-label": tr("Place of the cut"),
+    });
     const value = make("output", { class: "small" });
     slider.disabled = true;
     const apply = (): void => {
@@ -141,9 +234,24 @@ export class ToothControls {
       apply();
     };
     slider.addEventListener("input", apply);
-    const list = dropdown("", [["", tr("nothing")], ...Object.entries(k_cuts).map(([name, { text }]) => [name, tr(text)] as [string, string])], "", choose);
+    const list = dropdown(
+      "",
+      [
+        ["", tr("nothing")],
+        ...Object.entries(k_cuts).map(([name, { text }]) => [name, tr(text)] as [string, string]),
+      ],
+      "",
+      choose,
+    );
     list.querySelector("select")!.setAttribute("aria-label", tr("Cut away"));
-    return make("fieldset", { class: "choices cut" }, make("legend", {}, tr("Cut away")), list, slider, value);
+    return make(
+      "fieldset",
+      { class: "choices cut" },
+      make("legend", {}, tr("Cut away")),
+      list,
+      slider,
+      value,
+    );
   }
 
   private read(x: number, y: number): void {
@@ -164,18 +272,34 @@ export class ToothControls {
     const tissue = this.data.tissues[reading.tissue]?.words ?? "";
     if (this.data.kind !== "class" && reading.distance_mm !== null) {
       if (reading.cut) parts.push(distance_text(reading.distance_mm, this.options.whole));
-      else if (reading.distance_mm < -this.options.edges[0] * this.options.whole && !reading.section) parts.push(tr("target, {} mm to its walls or floor, untouched", fixed(-reading.distance_mm, 2)));
+      else if (
+        reading.distance_mm < -this.options.edges[0] * this.options.whole &&
+        !reading.section
+      )
+        parts.push(
+          tr("target, {} mm to its walls or floor, untouched", fixed(-reading.distance_mm, 2)),
+        );
       else {
         const mm = fixed(Math.abs(reading.distance_mm), 2);
-        parts.push(reading.distance_mm < 0 ? tr("{} mm inside the target", mm) : tr("{} mm outside the target", mm));
+        parts.push(
+          reading.distance_mm < 0
+            ? tr("{} mm inside the target", mm)
+            : tr("{} mm outside the target", mm),
+        );
         if (!reading.section) parts.push(tr("untouched"));
       }
     } else if (this.data.kind === "class") {
       const heat = this.view.heat_at(reading.place_mm);
-      if (heat !== null) parts.push(`${heat > 0 ? "+" : heat < 0 ? "−" : ""}${Math.abs(heat).toFixed(0)} % of the class ${heat > 0 ? tr("overcut") : heat < 0 ? "left it standing" : "deviated"}`);
+      if (heat !== null)
+        parts.push(
+          `${heat > 0 ? "+" : heat < 0 ? "−" : ""}${Math.abs(heat).toFixed(0)} % of the class ${heat > 0 ? tr("overcut") : heat < 0 ? "left it standing" : "deviated"}`,
+        );
     }
     parts.push(tissue);
-    if (reading.cut_at_s !== null) parts.push(tr("cut at {} (double-click or Shift+Enter goes there)", time_text(reading.cut_at_s)));
+    if (reading.cut_at_s !== null)
+      parts.push(
+        tr("cut at {} (double-click or Shift+Enter goes there)", time_text(reading.cut_at_s)),
+      );
     parts.push(tr("x {}, y {}, z {} mm", ...reading.place_mm.map((v) => fixed(v, 2))));
     this.readout.textContent = parts.join(" · ");
   }

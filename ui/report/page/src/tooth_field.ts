@@ -58,7 +58,12 @@ export class ToothField implements Field {
     const after = unpack(grid.after) as Uint8Array;
     const cells = grid.size[0] * grid.size[1] * grid.size[2];
     const box_cells = grid.box.size[0] * grid.box.size[1] * grid.box.size[2];
-    if (this.before.length !== cells || this.tissue.length !== cells || after.length !== box_cells || this.distance.length !== box_cells)
+    if (
+      this.before.length !== cells ||
+      this.tissue.length !== cells ||
+      after.length !== box_cells ||
+      this.distance.length !== box_cells
+    )
       throw new Error("the tooth's fields do not have the size of its grid");
 
     const whole: Block = { low: [0, 0, 0], size: grid.size };
@@ -68,14 +73,20 @@ export class ToothField implements Field {
     this.untouched = share;
     if (!grid.first || !grid.last) {
       this.values = shares(this.before);
-      for_each_row(whole, this.box, (at, inner, n) => { for (let i = 0; i < n; ++i) this.values[at + i] = after[inner + i] * (1 / 255); });
+      for_each_row(whole, this.box, (at, inner, n) => {
+        for (let i = 0; i < n; ++i) this.values[at + i] = after[inner + i] * (1 / 255);
+      });
       blur(this.values, scratch, grid.size);
       return;
     }
     this.values = share.slice();
     const first = unpack(grid.first) as Uint16Array;
     const last = unpack(grid.last) as Uint16Array;
-    const changed = bounds(this.box, (i, at) => first[i] !== k_never || after[i] !== this.before[at], grid.size);
+    const changed = bounds(
+      this.box,
+      (i, at) => first[i] !== k_never || after[i] !== this.before[at],
+      grid.size,
+    );
     if (!changed) return;
     this.moving = grown(changed, k_blur_cells, grid.size);
     this.padded = grown(changed, 2 * k_blur_cells, grid.size);
@@ -85,16 +96,19 @@ export class ToothField implements Field {
     this.first = new Uint16Array(n).fill(k_never);
     this.last = new Uint16Array(n).fill(k_never);
     this.work = [new Float32Array(n), new Float32Array(n)];
-    for_each_row(whole, this.padded, (at, inner, count) => this.start_share.set(this.before.subarray(at, at + count), inner));
+    for_each_row(whole, this.padded, (at, inner, count) =>
+      this.start_share.set(this.before.subarray(at, at + count), inner),
+    );
     this.end_share.set(this.start_share);
     this.share = shares(this.start_share);
     const shared = overlap(this.padded, this.box);
-    if (shared) for_each_row(this.box, shared, (at, _inner, count, x, y, z) => {
-      const to = offset(this.padded!, x, y, z);
-      this.end_share.set(after.subarray(at, at + count), to);
-      this.first.set(first.subarray(at, at + count), to);
-      this.last.set(last.subarray(at, at + count), to);
-    });
+    if (shared)
+      for_each_row(this.box, shared, (at, _inner, count, x, y, z) => {
+        const to = offset(this.padded!, x, y, z);
+        this.end_share.set(after.subarray(at, at + count), to);
+        this.first.set(first.subarray(at, at + count), to);
+        this.last.set(last.subarray(at, at + count), to);
+      });
   }
 
   /** The lattice edges whose surface moves with the time; vertices and normals of all others see only samples that never change. */
@@ -111,7 +125,8 @@ export class ToothField implements Field {
   /** Moves `values` to `t_s`; true when they may have changed. */
   set_time(t_s: number): boolean {
     if (!this.moving || !this.padded) return false;
-    const at = this.duration_s > 0 ? Math.min(Math.max(t_s / this.duration_s, 0), 1) * 65535 : 65535;
+    const at =
+      this.duration_s > 0 ? Math.min(Math.max(t_s / this.duration_s, 0), 1) * 65535 : 65535;
     if (at === this.share_at && this.version > 0) return false;
     this.share_at = at;
     const { first, last, start_share, end_share, share } = this;
@@ -145,7 +160,11 @@ export class ToothField implements Field {
         high[2] = Math.max(high[2], z);
       }
     if (high[0] < 0 && this.version > 0) return false;
-    if (high[0] >= 0) this.blur_again({ low, size: [high[0] - low[0] + 1, high[1] - low[1] + 1, high[2] - low[2] + 1] });
+    if (high[0] >= 0)
+      this.blur_again({
+        low,
+        size: [high[0] - low[0] + 1, high[1] - low[1] + 1, high[2] - low[2] + 1],
+      });
     ++this.version;
     return true;
   }
@@ -161,7 +180,10 @@ export class ToothField implements Field {
     blur(share.subarray(0, read.size[0] * read.size[1] * read.size[2]), scratch, read.size);
     for_each_row(read, written, (from, _inner, n, x, y, z) => {
       const [lx, ly, lz] = padded.low;
-      this.values.set(share.subarray(from, from + n), ((lz + z) * this.size[1] + ly + y) * this.size[0] + lx + x);
+      this.values.set(
+        share.subarray(from, from + n),
+        ((lz + z) * this.size[1] + ly + y) * this.size[0] + lx + x,
+      );
     });
   }
 
@@ -173,7 +195,15 @@ export class ToothField implements Field {
     const base = p.map((v) => Math.floor(v));
     for (let c = 0; c < 8; ++c) {
       const [x, y, z] = [base[0] + (c & 1), base[1] + ((c >> 1) & 1), base[2] + (c >> 2)];
-      if (x < low[0] || y < low[1] || z < low[2] || x >= low[0] + size[0] || y >= low[1] + size[1] || z >= low[2] + size[2]) continue;
+      if (
+        x < low[0] ||
+        y < low[1] ||
+        z < low[2] ||
+        x >= low[0] + size[0] ||
+        y >= low[1] + size[1] ||
+        z >= low[2] + size[2]
+      )
+        continue;
       const i = offset(this.padded, x, y, z);
       if (this.first[i] === k_never) continue;
       const at = Math.min(this.last[i], this.share_at);
@@ -185,7 +215,9 @@ export class ToothField implements Field {
 
 /** Index in a block's arrays of the lattice's cell x, y, z. */
 export function offset(block: Block, x: number, y: number, z: number): number {
-  return ((z - block.low[2]) * block.size[1] + (y - block.low[1])) * block.size[0] + (x - block.low[0]);
+  return (
+    ((z - block.low[2]) * block.size[1] + (y - block.low[1])) * block.size[0] + (x - block.low[0])
+  );
 }
 
 function shares(bytes: Uint8Array): Float32Array {
@@ -196,24 +228,41 @@ function shares(bytes: Uint8Array): Float32Array {
 
 function grown(block: Block, by: number, size: Vec3): Block {
   const low = block.low.map((v) => Math.max(v - by, 0)) as Vec3;
-  return { low, size: [0, 1, 2].map((a) => Math.min(block.low[a] + block.size[a] + by, size[a]) - low[a]) as Vec3 };
+  return {
+    low,
+    size: [0, 1, 2].map(
+      (a) => Math.min(block.low[a] + block.size[a] + by, size[a]) - low[a],
+    ) as Vec3,
+  };
 }
 
 function overlap(a: Block, b: Block): Block | null {
   const low = [0, 1, 2].map((i) => Math.max(a.low[i], b.low[i])) as Vec3;
-  const size = [0, 1, 2].map((i) => Math.min(a.low[i] + a.size[i], b.low[i] + b.size[i]) - low[i]) as Vec3;
+  const size = [0, 1, 2].map(
+    (i) => Math.min(a.low[i] + a.size[i], b.low[i] + b.size[i]) - low[i],
+  ) as Vec3;
   return size.every((v) => v > 0) ? { low, size } : null;
 }
 
 /** Each row in x of `inner`: its index in the arrays of `outer` and of `inner`, its length, and the lattice's cell it begins with. */
-function for_each_row(outer: Block, inner: Block, row: (at: number, inner_at: number, n: number, x: number, y: number, z: number) => void): void {
+function for_each_row(
+  outer: Block,
+  inner: Block,
+  row: (at: number, inner_at: number, n: number, x: number, y: number, z: number) => void,
+): void {
   const [x, y0, z0] = inner.low;
   const [nx, ny, nz] = inner.size;
-  for (let z = z0; z < z0 + nz; ++z) for (let y = y0; y < y0 + ny; ++y) row(offset(outer, x, y, z), offset(inner, x, y, z), nx, x, y, z);
+  for (let z = z0; z < z0 + nz; ++z)
+    for (let y = y0; y < y0 + ny; ++y)
+      row(offset(outer, x, y, z), offset(inner, x, y, z), nx, x, y, z);
 }
 
 /** The smallest block within `box` that holds every cell for which `wanted` (index in the box, index in the lattice) is true. */
-export function bounds(box: Block, wanted: (i: number, at: number) => boolean, size: Vec3): Block | null {
+export function bounds(
+  box: Block,
+  wanted: (i: number, at: number) => boolean,
+  size: Vec3,
+): Block | null {
   const low: Vec3 = [Infinity, Infinity, Infinity];
   const high: Vec3 = [-1, -1, -1];
   let i = 0;
@@ -228,7 +277,9 @@ export function bounds(box: Block, wanted: (i: number, at: number) => boolean, s
           if (y > high[1]) high[1] = y;
           if (z > high[2]) high[2] = z;
         }
-  return high[0] < 0 ? null : { low, size: [high[0] - low[0] + 1, high[1] - low[1] + 1, high[2] - low[2] + 1] };
+  return high[0] < 0
+    ? null
+    : { low, size: [high[0] - low[0] + 1, high[1] - low[1] + 1, high[2] - low[2] + 1] };
 }
 
 /** Binomial blur 1 4 6 4 1 along each axis, in place; beyond the border the outermost value goes on. */
@@ -241,7 +292,16 @@ export function blur(values: Float32Array, scratch: Float32Array, size: Vec3): v
 }
 
 /** Blurs lines of `n` samples `stride` apart; `outer` groups of `inner` neighbouring lines. */
-function blur_axis(from: Float32Array, to: Float32Array, n: number, stride: number, outer: number, outer_stride: number, inner: number, inner_stride: number): void {
+function blur_axis(
+  from: Float32Array,
+  to: Float32Array,
+  n: number,
+  stride: number,
+  outer: number,
+  outer_stride: number,
+  inner: number,
+  inner_stride: number,
+): void {
   for (let o = 0; o < outer; ++o)
     for (let k = 0; k < n; ++k) {
       const row = o * outer_stride;
@@ -250,7 +310,12 @@ function blur_axis(from: Float32Array, to: Float32Array, n: number, stride: numb
       const at = row + k * stride;
       const p1 = row + Math.min(k + 1, n - 1) * stride;
       const p2 = row + Math.min(k + 2, n - 1) * stride;
-      if (inner_stride === 0) to[at] = (from[m2] + from[p2] + 4 * (from[m1] + from[p1]) + 6 * from[at]) * 0.0625;
-      else for (let i = 0; i < inner; ++i) to[at + i] = (from[m2 + i] + from[p2 + i] + 4 * (from[m1 + i] + from[p1 + i]) + 6 * from[at + i]) * 0.0625;
+      if (inner_stride === 0)
+        to[at] = (from[m2] + from[p2] + 4 * (from[m1] + from[p1]) + 6 * from[at]) * 0.0625;
+      else
+        for (let i = 0; i < inner; ++i)
+          to[at + i] =
+            (from[m2 + i] + from[p2 + i] + 4 * (from[m1 + i] + from[p1 + i]) + 6 * from[at + i]) *
+            0.0625;
     }
 }

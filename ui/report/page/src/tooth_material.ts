@@ -166,7 +166,8 @@ export interface SharedUniforms {
 
 /** Uniforms that tooth and section have in common, so that one assignment changes both. */
 export function shared_uniforms(edges: readonly number[], whole: number): SharedUniforms {
-  const colours = (list: string[]): THREE.Vector3[] => list.map((c) => new THREE.Vector3(...rgb_of(c)));
+  const colours = (list: string[]): THREE.Vector3[] =>
+    list.map((c) => new THREE.Vector3(...rgb_of(c)));
   return {
     clip: { value: new THREE.Vector4(0, 0, 0, 1) },
     over_colour: { value: colours(k_over) },
@@ -179,9 +180,22 @@ export function shared_uniforms(edges: readonly number[], whole: number): Shared
 }
 
 export function tooth_material(shared: SharedUniforms, own: SharedUniforms): THREE.ShaderMaterial {
-  return new THREE.ShaderMaterial({ vertexShader: k_vertex, fragmentShader: k_fragment, uniforms: { ...shared, ...own }, side: THREE.DoubleSide });
+  return new THREE.ShaderMaterial({
+    vertexShader: k_vertex,
+    fragmentShader: k_fragment,
+    uniforms: { ...shared, ...own },
+    side: THREE.DoubleSide,
+  });
 }
 
-export function section_material(shared: SharedUniforms, own: SharedUniforms): THREE.ShaderMaterial {
-  return new THREE.ShaderMaterial({ vertexShader: k_cap_vertex, fragmentShader: k_cap_fragment, uniforms: { ...shared, ...own }, side: THREE.DoubleSide });
+export function section_material(
+  shared: SharedUniforms,
+  own: SharedUniforms,
+): THREE.ShaderMaterial {
+  return new THREE.ShaderMaterial({
+    vertexShader: k_cap_vertex,
+    fragmentShader: k_cap_fragment,
+    uniforms: { ...shared, ...own },
+    side: THREE.DoubleSide,
+  });
 }

@@ -21,7 +21,10 @@ export class ToothSurface {
   private readonly palette: Uint8Array;
   private readonly fills: Uint8Array; // 1 for pulp, which fills a space without being solid
 
-  constructor(private readonly field: ToothField, data: ReportData) {
+  constructor(
+    private readonly field: ToothField,
+    data: ReportData,
+  ) {
     this.nets = new SurfaceNets(field.size);
     this.palette = new Uint8Array(256 * 3).fill(200);
     this.fills = new Uint8Array(256);
@@ -34,7 +37,16 @@ export class ToothSurface {
 
   /** What no time changes. */
   still(): Surface {
-    return kept(this.dressed(this.nets.mesh(this.field, k_level, this.field.whole_edges(), this.field.moving_edges() ?? undefined)));
+    return kept(
+      this.dressed(
+        this.nets.mesh(
+          this.field,
+          k_level,
+          this.field.whole_edges(),
+          this.field.moving_edges() ?? undefined,
+        ),
+      ),
+    );
   }
 
   /** What the present time of the field shows in the part that changes; its arrays live until the next call. */
@@ -47,8 +59,18 @@ export class ToothSurface {
   open_pulp(): Surface {
     const { field, fills } = this;
     const values = field.untouched.slice();
-    if (this.fill_pulp(values) === 0) return { positions: new Float32Array(0), normals: new Float32Array(0), cubes: new Uint32Array(0), triangles: new Uint32Array(0), colours: new Uint8Array(0), marks: new Float32Array(0) };
-    const mesh = this.dressed(this.nets.mesh({ size: field.size, values }, k_level, field.whole_edges()));
+    if (this.fill_pulp(values) === 0)
+      return {
+        positions: new Float32Array(0),
+        normals: new Float32Array(0),
+        cubes: new Uint32Array(0),
+        triangles: new Uint32Array(0),
+        colours: new Uint8Array(0),
+        marks: new Float32Array(0),
+      };
+    const mesh = this.dressed(
+      this.nets.mesh({ size: field.size, values }, k_level, field.whole_edges()),
+    );
     const [nx, ny] = field.size;
     const step = [0, 1, nx, nx + 1, nx * ny, nx * ny + 1, nx * ny + nx, nx * ny + nx + 1];
     const of_pulp = Array.from(mesh.cubes, (cube) => {
@@ -59,7 +81,9 @@ export class ToothSurface {
       }
       return pulp > 0 && outside > 0;
     });
-    const triangles = mesh.triangles.filter((_, i, all) => [0, 1, 2].every((k) => of_pulp[all[i - (i % 3) + k]]));
+    const triangles = mesh.triangles.filter((_, i, all) =>
+      [0, 1, 2].every((k) => of_pulp[all[i - (i % 3) + k]]),
+    );
     return kept({ ...mesh, triangles });
   }
 
@@ -71,7 +95,8 @@ export class ToothSurface {
     for (let i = nx * ny; i < tissue.length - nx * ny; ++i) {
       if (this.fills[tissue[i]] !== 1) continue;
       values[i] = 1;
-      for (const by of [1, -1, nx, -nx, nx * ny, -nx * ny]) if (this.fills[tissue[i + by]] !== 1 && this.field.untouched[i + by] < 0.1) ++open;
+      for (const by of [1, -1, nx, -nx, nx * ny, -nx * ny])
+        if (this.fills[tissue[i + by]] !== 1 && this.field.untouched[i + by] < 0.1) ++open;
     }
     return open;
   }
@@ -81,8 +106,15 @@ export class ToothSurface {
     const { field } = this;
     const marks = new Float32Array(2 * surface.cubes.length);
     for (let i = 0; i < surface.cubes.length; ++i) {
-      const at = [0, 1, 2].map((a) => field.origin_mm[a] + surface.positions[3 * i + a] * field.cell_mm) as Vec3;
-      const heat = heat_at(field, at, [surface.normals[3 * i], surface.normals[3 * i + 1], surface.normals[3 * i + 2]], deeper_mm);
+      const at = [0, 1, 2].map(
+        (a) => field.origin_mm[a] + surface.positions[3 * i + a] * field.cell_mm,
+      ) as Vec3;
+      const heat = heat_at(
+        field,
+        at,
+        [surface.normals[3 * i], surface.normals[3 * i + 1], surface.normals[3 * i + 2]],
+        deeper_mm,
+      );
       if (heat === null) continue;
       marks[2 * i] = heat / 100;
       marks[2 * i + 1] = Math.abs(heat) >= k_min_heat_percent ? 1 : surface.marks[2 * i + 1];
@@ -144,11 +176,26 @@ export class ToothSurface {
   }
 
   /** Between the eight cells around a vertex; where the target's opening lies between them, of the solid ones alone. */
-  private distance_mm(cx: number, cy: number, cz: number, cube: number, step: number[], weight: Float64Array): number {
+  private distance_mm(
+    cx: number,
+    cy: number,
+    cz: number,
+    cube: number,
+    step: number[],
+    weight: Float64Array,
+  ): number {
     const { box, distance, values, cell_mm } = this.field;
     const [lx, ly, lz] = box.low;
     const [bx, by, bz] = box.size;
-    if (cx < lx || cy < ly || cz < lz || cx + 1 >= lx + bx || cy + 1 >= ly + by || cz + 1 >= lz + bz) return k_no_distance_mm;
+    if (
+      cx < lx ||
+      cy < ly ||
+      cz < lz ||
+      cx + 1 >= lx + bx ||
+      cy + 1 >= ly + by ||
+      cz + 1 >= lz + bz
+    )
+      return k_no_distance_mm;
     const first = offset(box, cx, cy, cz);
     let low = 127;
     let high = -127;
@@ -175,23 +222,42 @@ export class ToothSurface {
  * Share of the class, per cent, that deviated from the target at a place of its surface by more than `deeper_mm`: + overcut (tissue below the surface
  * was removed), − left standing (tissue above it was not), whichever is more. Null outside the box.
  */
-export function heat_at(field: ToothField, place_mm: Vec3, normal: Vec3, deeper_mm: number): number | null {
+export function heat_at(
+  field: ToothField,
+  place_mm: Vec3,
+  normal: Vec3,
+  deeper_mm: number,
+): number | null {
   if (!field.heat || heat_beside(field, place_mm, normal, 0) === null) return null;
   const over = Math.max(heat_beside(field, place_mm, normal, -deeper_mm) ?? 0, 0);
   const under = Math.min(heat_beside(field, place_mm, normal, deeper_mm) ?? 0, 0);
   return over >= -under ? over : under;
 }
 
-function heat_beside(field: ToothField, place_mm: Vec3, normal: Vec3, by_mm: number): number | null {
+function heat_beside(
+  field: ToothField,
+  place_mm: Vec3,
+  normal: Vec3,
+  by_mm: number,
+): number | null {
   const { low, size } = field.box;
-  const i = [0, 1, 2].map((a) => Math.round((place_mm[a] + normal[a] * by_mm - field.origin_mm[a]) / field.cell_mm) - low[a]);
+  const i = [0, 1, 2].map(
+    (a) =>
+      Math.round((place_mm[a] + normal[a] * by_mm - field.origin_mm[a]) / field.cell_mm) - low[a],
+  );
   if (i.some((v, a) => v < 0 || v >= size[a])) return null;
   return field.heat![(i[2] * size[1] + i[1]) * size[0] + i[0]];
 }
 
 /** A surface with arrays of its own, which the next meshing leaves alone. */
 function kept(surface: Surface): Surface {
-  return { ...surface, positions: surface.positions.slice(), normals: surface.normals.slice(), cubes: surface.cubes.slice(), triangles: surface.triangles.slice() };
+  return {
+    ...surface,
+    positions: surface.positions.slice(),
+    normals: surface.normals.slice(),
+    cubes: surface.cubes.slice(),
+    triangles: surface.triangles.slice(),
+  };
 }
 
 /** The target's walls and floor: where the distance passes zero, without the jumps at its opening. In cells of the box. */
@@ -200,5 +266,11 @@ export function target_surface(field: ToothField): Mesh {
   const values = new Float32Array(field.distance.length);
   for (let i = 0; i < values.length; ++i) values[i] = -field.distance[i] * k_distance_unit_mm;
   const most = 1.05 * field.cell_mm + 1.5 * k_distance_unit_mm; // neighbours of a true distance differ by a cell at most
-  return new SurfaceNets(size).mesh({ size, values }, 0, { low: [0, 0, 0], high: size }, undefined, (a, b) => Math.abs(a - b) < most);
+  return new SurfaceNets(size).mesh(
+    { size, values },
+    0,
+    { low: [0, 0, 0], high: size },
+    undefined,
+    (a, b) => Math.abs(a - b) < most,
+  );
 }

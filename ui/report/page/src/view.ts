@@ -8,11 +8,22 @@ import type { Sample } from "./motion.ts";
 import { k_views, Orbit } from "./orbit.ts";
 import { type Clip, in_sight, outward_at, probe, type Reading } from "./probe.ts";
 import type { ToothField } from "./tooth_field.ts";
-import { section_material, shared_uniforms, type SharedUniforms, tooth_material } from "./tooth_material.ts";
+import {
+  section_material,
+  shared_uniforms,
+  type SharedUniforms,
+  tooth_material,
+} from "./tooth_material.ts";
 import { heat_at, type Surface, target_surface, ToothSurface } from "./tooth_surface.ts";
 import { Surroundings } from "./surroundings.ts";
 import { thinned } from "./thinned_surface.ts";
-import { drawn_by_processor, marker_of, outline_material, spheres, tissue_kind } from "./view_parts.ts";
+import {
+  drawn_by_processor,
+  marker_of,
+  outline_material,
+  spheres,
+  tissue_kind,
+} from "./view_parts.ts";
 
 export interface ViewOptions {
   edges: readonly number[];
@@ -33,7 +44,12 @@ export class ToothView {
   private readonly shared: SharedUniforms;
   private readonly surroundings: Surroundings;
   private readonly density: THREE.Data3DTexture;
-  private readonly still: { surface: Surface; geometry: THREE.BufferGeometry; thinned: THREE.BufferGeometry; mesh: THREE.Mesh | null };
+  private readonly still: {
+    surface: Surface;
+    geometry: THREE.BufferGeometry;
+    thinned: THREE.BufferGeometry;
+    mesh: THREE.Mesh | null;
+  };
   private readonly duration_s: number;
   private deeper_mm = 0;
   private readonly section: THREE.Mesh;
@@ -58,9 +74,18 @@ export class ToothView {
   private twin: ToothView | null = null;
 
   /** Throws when WebGL is not to be had. */
-  constructor(private readonly canvas: HTMLCanvasElement, private readonly field: ToothField, data: ReportData, options: ViewOptions) {
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly field: ToothField,
+    data: ReportData,
+    options: ViewOptions,
+  ) {
     this.by_processor = drawn_by_processor();
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !this.by_processor, preserveDrawingBuffer: true });
+    this.renderer = new THREE.WebGLRenderer({
+      canvas,
+      antialias: !this.by_processor,
+      preserveDrawingBuffer: true,
+    });
     this.renderer.setClearColor(k_back);
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.duration_s = data.duration_s ?? 0;
@@ -73,18 +98,27 @@ export class ToothView {
     this.shared = shared_uniforms(options.edges, options.whole);
     this.surface = new ToothSurface(field, data);
     this.surroundings = new Surroundings(field);
-    const density = (this.density = volume_texture(this.surroundings.bytes, this.surroundings.size, THREE.LinearFilter));
+    const density = (this.density = volume_texture(
+      this.surroundings.bytes,
+      this.surroundings.size,
+      THREE.LinearFilter,
+    ));
     const coarse_mm = this.surroundings.cell_mm;
     const material = tooth_material(this.shared, {
       density: { value: density },
       density_low: { value: new THREE.Vector3(...this.surroundings.low_mm) },
-      density_size: { value: new THREE.Vector3(...this.surroundings.size).multiplyScalar(coarse_mm) },
+      density_size: {
+        value: new THREE.Vector3(...this.surroundings.size).multiplyScalar(coarse_mm),
+      },
       back_colour: { value: new THREE.Vector3(0.55, 0.5, 0.45) },
     });
     const surface = this.surface.still();
     const still = geometry_of(surface);
     const fewer = new THREE.BufferGeometry();
-    if (this.by_processor) fewer.copy(still).setIndex(new THREE.BufferAttribute(thinned(surface, field.size, field.moving_edges()), 1));
+    if (this.by_processor)
+      fewer
+        .copy(still)
+        .setIndex(new THREE.BufferAttribute(thinned(surface, field.size, field.moving_edges()), 1));
     this.still = { surface, geometry: still, thinned: fewer, mesh: null };
     for (const geometry of [still, this.growing.geometry, geometry_of(this.surface.open_pulp())]) {
       const mesh = new THREE.Mesh(geometry, material);
@@ -118,7 +152,9 @@ export class ToothView {
         low: { value: new THREE.Vector3(...origin_mm) },
         cells: { value: new THREE.Vector3(...size) },
         moving_low: { value: new THREE.Vector3(...moving.low) },
-        moving_cells: { value: new THREE.Vector3(...(field.moving ? moving.size : ([0, 0, 0] as Vec3))) },
+        moving_cells: {
+          value: new THREE.Vector3(...(field.moving ? moving.size : ([0, 0, 0] as Vec3))),
+        },
         box_low: { value: new THREE.Vector3(...field.box.low) },
         box_cells: { value: new THREE.Vector3(...field.box.size) },
         cell: { value: cell_mm },
@@ -136,7 +172,10 @@ export class ToothView {
     shape.setAttribute("position", new THREE.BufferAttribute(outline.positions.slice(), 3));
     shape.setAttribute("normal", new THREE.BufferAttribute(outline.normals.slice(), 3));
     shape.setIndex(new THREE.BufferAttribute(outline.triangles.slice(), 1));
-    for (const [opacity, through] of [[0.42, false], [0.16, true]] as [number, boolean][]) {
+    for (const [opacity, through] of [
+      [0.42, false],
+      [0.16, true],
+    ] as [number, boolean][]) {
       const mesh = new THREE.Mesh(shape, outline_material(this.shared, opacity, through));
       mesh.renderOrder = 2;
       mesh.frustumCulled = false;
@@ -198,7 +237,9 @@ export class ToothView {
     this.section.visible = clip !== null;
     if (clip) {
       this.section.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), n);
-      this.section.position.copy(this.centre).addScaledVector(n, clip.offset_mm - n.dot(this.centre) - 1e-3);
+      this.section.position
+        .copy(this.centre)
+        .addScaledVector(n, clip.offset_mm - n.dot(this.centre) - 1e-3);
       this.section.updateMatrixWorld();
     }
     this.redraw();
@@ -218,15 +259,30 @@ export class ToothView {
   /** What lies under a point of the canvas, in CSS pixels from its upper left corner. */
   read(x: number, y: number): Reading | null {
     const ray = new THREE.Raycaster();
-    ray.setFromCamera(new THREE.Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight), this.orbit.camera);
-    return probe(this.field, ray.ray.origin.toArray() as Vec3, ray.ray.direction.toArray() as Vec3, this.clip);
+    ray.setFromCamera(
+      new THREE.Vector2(
+        (2 * x) / this.canvas.clientWidth - 1,
+        1 - (2 * y) / this.canvas.clientHeight,
+      ),
+      this.orbit.camera,
+    );
+    return probe(
+      this.field,
+      ray.ray.origin.toArray() as Vec3,
+      ray.ray.direction.toArray() as Vec3,
+      this.clip,
+    );
   }
 
   /** For a class: shows the share that deviated by more than `deeper_mm`. */
   set_heat_depth(deeper_mm: number): void {
     this.deeper_mm = deeper_mm;
-    const marks = new THREE.BufferAttribute(this.surface.heat_marks(this.still.surface, deeper_mm), 2);
-    for (const geometry of [this.still.geometry, this.still.thinned]) geometry.setAttribute("marks", marks);
+    const marks = new THREE.BufferAttribute(
+      this.surface.heat_marks(this.still.surface, deeper_mm),
+      2,
+    );
+    for (const geometry of [this.still.geometry, this.still.thinned])
+      geometry.setAttribute("marks", marks);
     this.redraw();
   }
 
@@ -259,15 +315,22 @@ export class ToothView {
 
   private adapt_pixels(rests: boolean): void {
     const share = rests ? 1 : k_changing_share;
-    if (share !== this.pixel_share) this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2) * (this.pixel_share = share));
-    if (this.still.mesh) this.still.mesh.geometry = rests ? this.still.geometry : this.still.thinned;
+    if (share !== this.pixel_share)
+      this.renderer.setPixelRatio(
+        Math.min(window.devicePixelRatio, 2) * (this.pixel_share = share),
+      );
+    if (this.still.mesh)
+      this.still.mesh.geometry = rests ? this.still.geometry : this.still.thinned;
     this.canvas.dataset.rests = String(rests);
     clearTimeout(this.rest_timer);
     if (rests) return;
     // from when this picture stands
     requestAnimationFrame(() => {
       clearTimeout(this.rest_timer);
-      this.rest_timer = setTimeout(() => requestAnimationFrame(() => this.pending || this.draw(true)), k_rest_ms);
+      this.rest_timer = setTimeout(
+        () => requestAnimationFrame(() => this.pending || this.draw(true)),
+        k_rest_ms,
+      );
     });
   }
 
@@ -280,7 +343,8 @@ export class ToothView {
   }
 
   private update_section(): void {
-    if (!this.section.visible || this.section_version === this.field.version || !this.field.moving) return;
+    if (!this.section.visible || this.section_version === this.field.version || !this.field.moving)
+      return;
     this.section_version = this.field.version;
     bytes_of(this.field.values, this.field.size, this.field.moving, this.moving_bytes);
     this.moving_texture.needsUpdate = true;
@@ -293,24 +357,41 @@ export class ToothView {
       group.visible = false;
     }
     // at the end stands the result, with nothing before it
-    if (!current || !this.sampled || !this.with_instrument || this.sampled_s >= this.duration_s) return;
+    if (!current || !this.sampled || !this.with_instrument || this.sampled_s >= this.duration_s)
+      return;
     current.visible = true;
-    pose_instrument(current, new THREE.Vector3(...this.sampled.tip_mm), new THREE.Vector3(...this.sampled.axis));
+    pose_instrument(
+      current,
+      new THREE.Vector3(...this.sampled.tip_mm),
+      new THREE.Vector3(...this.sampled.axis),
+    );
   }
 
   private set_instruments(list: Instrument[]): void {
-    this.instruments = [...list].sort((a, b) => a.from_s - b.from_s).map((i) => ({ from_s: i.from_s, group: instrument_mesh(i) }));
+    this.instruments = [...list]
+      .sort((a, b) => a.from_s - b.from_s)
+      .map((i) => ({ from_s: i.from_s, group: instrument_mesh(i) }));
     for (const { group } of this.instruments) this.scene.add(group);
   }
 
   private face(place_mm: Vec3): void {
-    const towards = this.orbit.camera.position.clone().sub(new THREE.Vector3(...place_mm)).normalize();
+    const towards = this.orbit.camera.position
+      .clone()
+      .sub(new THREE.Vector3(...place_mm))
+      .normalize();
     if (in_sight(this.field, place_mm, towards.toArray() as Vec3)) return;
     for (const elevation_deg of [45, 65, 90, 20, 0, -20])
       for (let i = 0; i < 8; ++i) {
         const azimuth_deg = k_views.oblique.azimuth_deg + 45 * (i % 2 ? (i + 1) / 2 : -i / 2);
         const [a, e] = [(azimuth_deg * Math.PI) / 180, (elevation_deg * Math.PI) / 180];
-        if (!in_sight(this.field, place_mm, [Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e)])) continue;
+        if (
+          !in_sight(this.field, place_mm, [
+            Math.cos(e) * Math.cos(a),
+            Math.cos(e) * Math.sin(a),
+            Math.sin(e),
+          ])
+        )
+          continue;
         this.orbit.look({ azimuth_deg, elevation_deg });
         return;
       }

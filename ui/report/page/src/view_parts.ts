@@ -11,21 +11,39 @@ export function tissue_kind(tissue: Tissue | undefined): number {
 }
 
 /** The sphere around all solid tissue, and the one that the view begins with: the tooth's breadth around the height of what was to be done. */
-export function spheres(field: ToothField): { whole: { centre: THREE.Vector3; radius: number }; home: { centre: THREE.Vector3; radius: number } } {
-  const tooth = bounds({ low: [0, 0, 0], size: field.size }, (i) => field.untouched[i] > 0.5, field.size)!;
+export function spheres(field: ToothField): {
+  whole: { centre: THREE.Vector3; radius: number };
+  home: { centre: THREE.Vector3; radius: number };
+} {
+  const tooth = bounds(
+    { low: [0, 0, 0], size: field.size },
+    (i) => field.untouched[i] > 0.5,
+    field.size,
+  )!;
   const low = tooth.low;
   const high = low.map((v, a) => v + tooth.size[a] - 1);
   const span = [0, 1, 2].map((a) => (high[a] - low[a]) * field.cell_mm);
-  const mm = (cells: number[]): THREE.Vector3 => new THREE.Vector3(...(cells.map((v, a) => field.origin_mm[a] + v * field.cell_mm) as Vec3));
+  const mm = (cells: number[]): THREE.Vector3 =>
+    new THREE.Vector3(...(cells.map((v, a) => field.origin_mm[a] + v * field.cell_mm) as Vec3));
   const middle = [0, 1, 2].map((a) => (low[a] + high[a]) / 2);
   const worked = field.box.low[2] + field.box.size[2] / 2;
   const breadth = Math.hypot(span[0], span[1]) / 2;
   const radius = Math.hypot(...span) / 2;
-  const height = Math.min(Math.max(worked, low[2] + breadth / field.cell_mm), Math.max(high[2] - (0.75 * breadth) / field.cell_mm, middle[2]));
-  return { whole: { centre: mm(middle), radius }, home: { centre: mm([middle[0], middle[1], height]), radius: Math.min(radius, 1.08 * breadth) } };
+  const height = Math.min(
+    Math.max(worked, low[2] + breadth / field.cell_mm),
+    Math.max(high[2] - (0.75 * breadth) / field.cell_mm, middle[2]),
+  );
+  return {
+    whole: { centre: mm(middle), radius },
+    home: { centre: mm([middle[0], middle[1], height]), radius: Math.min(radius, 1.08 * breadth) },
+  };
 }
 
-export function outline_material(shared: SharedUniforms, opacity: number, through: boolean): THREE.ShaderMaterial {
+export function outline_material(
+  shared: SharedUniforms,
+  opacity: number,
+  through: boolean,
+): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     uniforms: { clip: shared.clip, opacity: { value: opacity } },
     vertexShader: /* glsl */ `
@@ -58,7 +76,15 @@ void main() {
 export function marker_of(): THREE.Group {
   const group = new THREE.Group();
   const part = (geometry: THREE.BufferGeometry, colour: number, order: number): void => {
-    const mesh = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({ color: colour, depthTest: false, depthWrite: false, transparent: true }));
+    const mesh = new THREE.Mesh(
+      geometry,
+      new THREE.MeshBasicMaterial({
+        color: colour,
+        depthTest: false,
+        depthWrite: false,
+        transparent: true,
+      }),
+    );
     mesh.renderOrder = order;
     group.add(mesh);
   };
@@ -74,7 +100,9 @@ export function marker_of(): THREE.Group {
 export function drawn_by_processor(): boolean {
   const gl = document.createElement("canvas").getContext("webgl2");
   if (!gl) return false;
-  const name = gl.getExtension("WEBGL_debug_renderer_info") ? String(gl.getParameter(0x9246)) : String(gl.getParameter(gl.RENDERER));
+  const name = gl.getExtension("WEBGL_debug_renderer_info")
+    ? String(gl.getParameter(0x9246))
+    : String(gl.getParameter(gl.RENDERER));
   gl.getExtension("WEBGL_lose_context")?.loseContext();
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }

@@ -3,7 +3,10 @@
 let translations: { [english: string]: string } = {};
 let sign = ".";
 
-export function set_words(words: { [english: string]: string } | undefined, decimal_sign: string | undefined): void {
+export function set_words(
+  words: { [english: string]: string } | undefined,
+  decimal_sign: string | undefined,
+): void {
   translations = words ?? {};
   sign = decimal_sign ?? ".";
 }
@@ -11,12 +14,15 @@ export function set_words(words: { [english: string]: string } | undefined, deci
 /** The message in the report's language, with `texts` in its gaps `{}`, or `{0}`, `{1}`; numbers with its decimal sign. */
 export function tr(english: string, ...texts: (string | number)[]): string {
   let next = 0;
-  const said_so = (text: string | number): string => (typeof text === "number" ? with_sign(String(text)) : text);
-  return (translations[english] ?? english).replace(/\{(\d*)\}/g, (_gap, number: string) => said_so(texts[number === "" ? next++ : Number(number)] ?? ""));
+  const said_so = (text: string | number): string =>
+    typeof text === "number" ? with_sign(String(text)) : text;
+  return (translations[english] ?? english).replace(/\{(\d*)\}/g, (_gap, number: string) =>
+    said_so(texts[number === "" ? next++ : Number(number)] ?? ""),
+  );
 }
 
 /** Marks a message that is shown later by tr(). */
-export function said(english: string): string {
+export function noop(english: string): string {
   return english;
 }
 

@@ -15,7 +15,9 @@
 namespace cavum::explain {
 namespace {
 
-std::string first_cause(const Explanation& e) { return e.causes.empty() ? "" : mechanism_at(e.causes.front().term.mechanism).name; }
+std::string first_cause(const Explanation& e) {
+  return e.causes.empty() ? "" : mechanism_at(e.causes.front().term.mechanism).name;
+}
 
 const Interval& parameter(const Explanation& e, const std::string& name) {
   for (const auto& [n, i] : e.causes.at(0).parameters)
@@ -36,7 +38,8 @@ TEST(Explain, ARecordingOfTheLawItselfIsClean) {
 
 TEST(Explain, FrictionIsNamedAndItsModelLeavesNothing) {
   made::Options o;
-  const Recording r = made::recording(o, [](const made::Row& q) { return 0.03 * std::tanh(q.v_mm_s / 0.05); });
+  const Recording r =
+      made::recording(o, [](const made::Row& q) { return 0.03 * std::tanh(q.v_mm_s / 0.05); });
   const Explanation e = explain(r);
   ASSERT_EQ(e.verdict, Verdict::named) << english_text(to_text(e));
   EXPECT_EQ(first_cause(e), "coulomb_friction");
@@ -45,7 +48,8 @@ TEST(Explain, FrictionIsNamedAndItsModelLeavesNothing) {
   EXPECT_GT(parameter(e, "fc_n").high, 0.03);
   EXPECT_GT(e.gain.percent.low, 0.0);
 
-  const ForceModel extended = parse_force_model(extended_model_toml(e, testing_engine::shipped_model("paper")), "extended.toml");
+  const ForceModel extended = parse_force_model(
+      extended_model_toml(e, testing_engine::shipped_model("paper")), "extended.toml");
   ASSERT_EQ(extended.terms.size(), 1u);
   EXPECT_NEAR(extended.materials.at("dentin").voigt.stiffness_n_per_mm, made::k_k, 0.02);
   const Series added = added_force_n(extended, "dentin", r, "extended.toml");
@@ -59,14 +63,16 @@ TEST(Explain, ABiasStaysInTheMeasurementAndIsTakenOff) {
   const Explanation e = explain(r);
   ASSERT_EQ(first_cause(e), "bias") << english_text(to_text(e));
   EXPECT_NEAR(parameter(e, "bias_n").value, -0.02, 0.002);
-  const ForceModel extended = parse_force_model(extended_model_toml(e, testing_engine::shipped_model("paper")), "extended.toml");
+  const ForceModel extended = parse_force_model(
+      extended_model_toml(e, testing_engine::shipped_model("paper")), "extended.toml");
   EXPECT_TRUE(extended.terms.empty());
   ASSERT_EQ(extended.measurement.size(), 1u);
   const Series added = added_force_n(extended, "dentin", r, "extended.toml");
   EXPECT_NEAR(added[10], parameter(e, "bias_n").value, 1e-9);
 }
 
-/// What it adds that the surface of session `s` lies `delta_mm[s]` nearer than the recording has it.
+/// What it adds that the surface of session `s` lies `delta_mm[s]` nearer than the recording has
+/// it.
 std::function<double(const made::Row&)> surface_off_by(std::vector<double> delta_mm) {
   return [delta_mm, s = -1](const made::Row& q) mutable {
     if (q.first) ++s;
@@ -100,7 +106,8 @@ TEST(Explain, AnOffsetOfTheForceInEachSessionIsNotTakenForOneOfTheSurface) {
     if (q.first) ++s;
     return offset_n[static_cast<std::size_t>(s)];  // in air too
   }));
-  for (const auto& c : e.causes) EXPECT_STRNE(mechanism_at(c.term.mechanism).name, "contact_offset") << english_text(to_text(e));
+  for (const auto& c : e.causes)
+    EXPECT_STRNE(mechanism_at(c.term.mechanism).name, "contact_offset") << english_text(to_text(e));
 }
 
 TEST(Explain, WhatNoMechanismDescribesIsLaidToItsVariable) {
@@ -108,7 +115,8 @@ TEST(Explain, WhatNoMechanismDescribesIsLaidToItsVariable) {
   Recording r = made::recording(o);
   Series humidity(r.rows());
   for (Eigen::Index i = 0; i < r.rows(); ++i)
-    humidity[i] = std::sin(0.013 * static_cast<double>(i)) + 0.5 * std::sin(0.0041 * static_cast<double>(i));
+    humidity[i] =
+        std::sin(0.013 * static_cast<double>(i)) + 0.5 * std::sin(0.0041 * static_cast<double>(i));
   r.f_n += 0.02 * humidity;
   r.columns.emplace_back("humidity", humidity);
   const Explanation e = explain(r);
@@ -121,8 +129,10 @@ TEST(Explain, OneDirectionNeverNamesFrictionBiasOrEdgeForceAlone) {
   made::Options o;
   o.one_way = true;
   for (int kind = 0; kind < 3; ++kind) {
-    const Explanation e = explain(made::recording(o, [&](const made::Row& q) { return kind == 2 && q.x_mm <= 0 ? 0.0 : 0.26; }));
-    EXPECT_TRUE(e.verdict == Verdict::alias || e.verdict == Verdict::not_testable) << english_text(to_text(e));
+    const Explanation e = explain(made::recording(
+        o, [&](const made::Row& q) { return kind == 2 && q.x_mm <= 0 ? 0.0 : 0.26; }));
+    EXPECT_TRUE(e.verdict == Verdict::alias || e.verdict == Verdict::not_testable)
+        << english_text(to_text(e));
     EXPECT_FALSE(e.next_experiment.empty());
   }
 }
@@ -144,7 +154,8 @@ TEST(Explain, ALineKeepsItsAmplitudeWhenEverySessionHasItsPhase) {
 TEST(Explain, AnIntervalHoldsTheTruthOfAStiffnessThatGrows) {
   const Recording r = made::recording({}, [](const made::Row& q) {
     if (q.x_mm <= 0) return 0.0;
-    return std::max(0.0, made::k_k * std::pow(q.x_mm, 1.6) + made::k_c * q.v_mm_s) - q.base_n;  // neither of the two laws pulls
+    return std::max(0.0, made::k_k * std::pow(q.x_mm, 1.6) + made::k_c * q.v_mm_s) -
+           q.base_n;  // neither of the two laws pulls
   });
   const Explanation e = explain(r);
   ASSERT_EQ(first_cause(e), "nonlinear_stiffness") << english_text(to_text(e));
@@ -156,7 +167,9 @@ TEST(Explain, AnIntervalHoldsTheTruthOfAStiffnessThatGrows) {
 TEST(Explain, WithoutSurrogatesAPlainRuleAnswersAndSaysSo) {
   ExplainOptions plain;
   plain.surrogates = 0;
-  const Explanation e = explain(made::recording({}, [](const made::Row& q) { return 0.03 * std::tanh(q.v_mm_s / 0.05); }), plain);
+  const Explanation e = explain(
+      made::recording({}, [](const made::Row& q) { return 0.03 * std::tanh(q.v_mm_s / 0.05); }),
+      plain);
   EXPECT_EQ(first_cause(e), "coulomb_friction") << english_text(to_text(e));
   EXPECT_FALSE(e.notes.empty());
 }
@@ -164,7 +177,8 @@ TEST(Explain, WithoutSurrogatesAPlainRuleAnswersAndSaysSo) {
 TEST(Explain, TheSameSeedGivesTheSameAnswer) {
   made::Options o;
   o.quantum_mm = 0.01;
-  const Recording r = made::recording(o, [](const made::Row& q) { return q.x_mm > 0 && q.rpm > 0 ? 0.03 : 0.0; });
+  const Recording r =
+      made::recording(o, [](const made::Row& q) { return q.x_mm > 0 && q.rpm > 0 ? 0.03 : 0.0; });
   const auto first = to_json(explain(r)), second = to_json(explain(r));
   EXPECT_EQ(first.dump(), second.dump());
   EXPECT_EQ(first["causes"][0]["mechanism"], "edge_force");
@@ -181,7 +195,8 @@ TEST(Explain, FaultyDataGiveNoCause) {
 }
 
 TEST(Explain, MeatUnderTheIndenterRelaxesWithTwoTimeConstants) {
-  const std::string path = std::string(CAVUM_SOURCE_DIR) + "/../shared/measured/zwick_relaxation/recording.csv";
+  const std::string path =
+      std::string(CAVUM_SOURCE_DIR) + "/../shared/measured/zwick_relaxation/recording.csv";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   const Explanation e = explain(read_recording(path));
   ASSERT_EQ(first_cause(e), "relaxation") << english_text(to_text(e));
@@ -193,7 +208,8 @@ TEST(Explain, MeatUnderTheIndenterRelaxesWithTwoTimeConstants) {
 }
 
 TEST(Protocol, TheMotionIsContinuousAndGoesBothWaysInAirAndInContact) {
-  const Recording r = parse_recording(protocol_motion_csv(), "p.csv", {{"x_mm", "z_mm"}, {"f_n", "pedal"}, {"lateral", "x_mm"}});
+  const Recording r = parse_recording(protocol_motion_csv(), "p.csv",
+                                      {{"x_mm", "z_mm"}, {"f_n", "pedal"}, {"lateral", "x_mm"}});
   double fastest = 0, in_air_back = 0, in_contact_back = 0;
   for (Eigen::Index i = 1; i < r.rows(); ++i) {
     const double v = -(r.x_mm[i] - r.x_mm[i - 1]) / (r.t_s[i] - r.t_s[i - 1]);

@@ -31,7 +31,8 @@ TEST(Lags, ADelayedContactBeginsBetweenTheRows) {
   const double tau_s = 0.0121;
   const Series damper = delayed(p.scene, tau_s).damper + p.scene.damper_mm_s;
   for (Eigen::Index i = 0; i < damper.size(); ++i)
-    EXPECT_NEAR(damper[i], p.recording.t_s[i] - tau_s > Press::k_touch_s ? 1.0 : 0.0, 1e-9) << "row " << i;
+    EXPECT_NEAR(damper[i], p.recording.t_s[i] - tau_s > Press::k_touch_s ? 1.0 : 0.0, 1e-9)
+        << "row " << i;
 }
 
 TEST(Lags, AFilterAnswersTheJumpAtContactFromTheInstantOfTouching) {
@@ -49,11 +50,16 @@ TEST(Lags, ASpringInSeriesFollowsItsClosedForm) {
   const double e = 0.3, softer = 1.0 + b.k_n_per_mm * e, tau_s = b.c_n_s_per_mm * e / softer;
   const Press p(b);
   const Columns c = in_series(p.scene, e);
-  const Series force = b.k_n_per_mm * (c.spring + p.scene.spring_mm) + b.c_n_s_per_mm * (c.damper + p.scene.damper_mm_s);
+  const Series force = b.k_n_per_mm * (c.spring + p.scene.spring_mm) +
+                       b.c_n_s_per_mm * (c.damper + p.scene.damper_mm_s);
   for (Eigen::Index i = 0; i < force.size(); ++i) {
-    const double t = p.recording.t_s[i] - Press::k_touch_s;  // F + tau F' = (k t + c)/(1 + k e), F(0) = 0
+    const double t =
+        p.recording.t_s[i] - Press::k_touch_s;  // F + tau F' = (k t + c)/(1 + k e), F(0) = 0
     const double fades = std::exp(-t / tau_s);
-    const double expected = t > 0.0 ? (b.k_n_per_mm * (t - tau_s + tau_s * fades) + b.c_n_s_per_mm * (1.0 - fades)) / softer : 0.0;
+    const double expected =
+        t > 0.0
+            ? (b.k_n_per_mm * (t - tau_s + tau_s * fades) + b.c_n_s_per_mm * (1.0 - fades)) / softer
+            : 0.0;
     EXPECT_NEAR(force[i], expected, 1e-9) << "row " << i;
   }
 }

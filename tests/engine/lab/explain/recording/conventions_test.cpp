@@ -21,7 +21,8 @@ std::string proposed(const Recording& r) {
 Recording with_speed(Recording r) {
   r.v_mm_s = Series::Zero(r.rows());
   for (const auto& s : r.sessions)
-    for (Eigen::Index i = s.begin + 1; i + 1 < s.end; ++i) r.v_mm_s[i] = (r.x_mm[i + 1] - r.x_mm[i - 1]) / (r.t_s[i + 1] - r.t_s[i - 1]);
+    for (Eigen::Index i = s.begin + 1; i + 1 < s.end; ++i)
+      r.v_mm_s[i] = (r.x_mm[i + 1] - r.x_mm[i - 1]) / (r.t_s[i + 1] - r.t_s[i - 1]);
   return r;
 }
 
@@ -70,7 +71,8 @@ TEST(Conventions, AMachinesPositionIsToldWithItsSurface) {
   ASSERT_TRUE(options.starts_with("--surface-mm 37.")) << options;
   EXPECT_NEAR(std::stod(options.substr(13)), 37.4, 0.1);
   r.x_mm = -r.x_mm;
-  EXPECT_TRUE(proposed(r).starts_with("--negate x --surface-mm -37.")) << proposed(r) << ": in the file's positions, before the sign";
+  EXPECT_TRUE(proposed(r).starts_with("--negate x --surface-mm -37."))
+      << proposed(r) << ": in the file's positions, before the sign";
 }
 
 TEST(Conventions, AirAloneIsNotRefused) {
@@ -81,9 +83,11 @@ TEST(Conventions, AirAloneIsNotRefused) {
     Series v = with_speed(r).v_mm_s;
     r.x_mm += 40.0;
     for (Eigen::Index i = 0; i < r.rows(); ++i)
-      r.f_n[i] = weight * std::sin(0.5 * r.x_mm[i]) + 0.3 * (v[i] > 0.0 ? 1.0 : -1.0) + 0.01 * std::sin(77.0 * static_cast<double>(i));
+      r.f_n[i] = weight * std::sin(0.5 * r.x_mm[i]) + 0.3 * (v[i] > 0.0 ? 1.0 : -1.0) +
+                 0.01 * std::sin(77.0 * static_cast<double>(i));
     EXPECT_EQ(proposed(r), "");
-    for (Eigen::Index i = 0; i < r.rows(); ++i) r.f_n[i] = 0.02 * std::sin(77.0 * static_cast<double>(i));
+    for (Eigen::Index i = 0; i < r.rows(); ++i)
+      r.f_n[i] = 0.02 * std::sin(77.0 * static_cast<double>(i));
     EXPECT_EQ(proposed(r), "");
   }
 }
@@ -111,7 +115,8 @@ TEST(Conventions, OptionsPutThemRight) {
   std::string table = "session,t_s,z_mm,f_n\n";
   for (const auto& s : right.sessions)
     for (Eigen::Index i = s.begin; i < s.end; ++i)
-      table += s.name + "," + std::to_string(right.t_s[i]) + "," + std::to_string(37.4 - right.x_mm[i]) + "," + std::to_string(-right.f_n[i]) + "\n";
+      table += s.name + "," + std::to_string(right.t_s[i]) + "," +
+               std::to_string(37.4 - right.x_mm[i]) + "," + std::to_string(-right.f_n[i]) + "\n";
   ReadingOptions options;
   options.negate = {"x", "f"};
   options.surface_mm = 37.4;
@@ -122,13 +127,15 @@ TEST(Conventions, OptionsPutThemRight) {
   options.negate = {"x", "w"};
   EXPECT_THROW(static_cast<void>(parse_recording_as(table, "r.csv", options)), Error);
   options.negate = {"v"};
-  EXPECT_THROW(static_cast<void>(parse_recording_as(table, "r.csv", options)), Error) << "there is no speed to negate";
+  EXPECT_THROW(static_cast<void>(parse_recording_as(table, "r.csv", options)), Error)
+      << "there is no speed to negate";
 }
 
 TEST(Overview, SaysWhatWasUnderstood) {
   std::string table = "Rig 7\nsession;time_ms;Weg [mm];Fz [mN]\n";
   for (int i = 0; i < 400; ++i)
-    table += std::string(i < 200 ? "a;" : "b;") + std::to_string(5 * i) + ";" + std::to_string(i % 200 - 100) + ",5;" +
+    table += std::string(i < 200 ? "a;" : "b;") + std::to_string(5 * i) + ";" +
+             std::to_string(i % 200 - 100) + ",5;" +
              std::to_string(10 * std::max(0, i % 200 - 100)) + "\n";
   const Overview o = overview_of(parse_recording(table, "r.csv"));
   EXPECT_EQ(o.rows, 400);

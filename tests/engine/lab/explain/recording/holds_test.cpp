@@ -57,9 +57,10 @@ Recording stairs(const std::vector<std::vector<int>>& sessions) {
 TEST(Holds, AreFoundWhereTheToolStands) {
   const Holds h = find_holds(stairs({{-10, 5, 9, 5}, {-10, 5, 9, 5}}), k_quantum_mm);
   ASSERT_EQ(h.holds.size(), 8u);
-  ASSERT_EQ(h.places_mm.size(), 3u);
-  EXPECT_NEAR(h.places_mm[1], 5 * k_quantum_mm, 1e-12);
-  for (const auto& hold : h.holds) EXPECT_NEAR(static_cast<double>(hold.end - hold.begin), 101.0, 2.0) << hold.begin;
+  ASSERT_EQ(h.positions_mm.size(), 3u);
+  EXPECT_NEAR(h.positions_mm[1], 5 * k_quantum_mm, 1e-12);
+  for (const auto& hold : h.holds)
+    EXPECT_NEAR(static_cast<double>(hold.end - hold.begin), 101.0, 2.0) << hold.begin;
   EXPECT_EQ(h.holds[1].place, 1u);
   EXPECT_EQ(h.holds[2].place, 2u);
   EXPECT_NEAR(h.repeated, 1.0, 1e-12);
@@ -72,9 +73,13 @@ TEST(Holds, ASlowMotionIsNone) {
 }
 
 TEST(Holds, OfDifferentDepthsDoNotRepeat) {
-  EXPECT_FALSE(find_holds(stairs({{-20, 2, 8}, {-13, 5, 11}, {-17, 3, 14}}), k_quantum_mm).repeat());
-  EXPECT_FALSE(find_holds(made::recording(coarse(new_seed("depths drawn by session"), false)), k_quantum_mm).repeat());
-  EXPECT_TRUE(find_holds(made::recording(coarse(new_seed("one programme"), true)), k_quantum_mm).repeat());
+  EXPECT_FALSE(
+      find_holds(stairs({{-20, 2, 8}, {-13, 5, 11}, {-17, 3, 14}}), k_quantum_mm).repeat());
+  EXPECT_FALSE(
+      find_holds(made::recording(coarse(new_seed("depths drawn by session"), false)), k_quantum_mm)
+          .repeat());
+  EXPECT_TRUE(
+      find_holds(made::recording(coarse(new_seed("one programme"), true)), k_quantum_mm).repeat());
 }
 
 TEST(Holds, APathOfTheSameProgrammeStandsStillWithinHalfACell) {
@@ -82,24 +87,28 @@ TEST(Holds, APathOfTheSameProgrammeStandsStillWithinHalfACell) {
   const Holds h = find_holds(r, k_quantum_mm);
   Random random(new_seed("places"));
   const Series path = replaced_holds(r, r.x_mm, h, k_quantum_mm, random);
-  std::vector<double> at(h.places_mm.size(), std::nan(""));
+  std::vector<double> at(h.positions_mm.size(), std::nan(""));
   for (const auto& hold : h.holds) {
     for (Eigen::Index i = hold.begin; i < hold.end; ++i) ASSERT_EQ(path[i], path[hold.begin]);
     if (std::isnan(at[hold.place])) at[hold.place] = path[hold.begin];
     EXPECT_EQ(path[hold.begin], at[hold.place]) << "a place is the same in all sessions";
-    EXPECT_LE(std::fabs(path[hold.begin] - h.places_mm[hold.place]), 0.5 * k_quantum_mm + 1e-12);
+    EXPECT_LE(std::fabs(path[hold.begin] - h.positions_mm[hold.place]), 0.5 * k_quantum_mm + 1e-12);
   }
-  // elsewhere the way is the old one, shifted by no more than places are, and without jumps of its own
+  // elsewhere the way is the old one, shifted by no more than places are, and without jumps of its
+  // own
   for (const auto& s : r.sessions)
     for (Eigen::Index i = s.begin; i < s.end; ++i) {
       EXPECT_LT(std::fabs(path[i] - r.x_mm[i]), 1.01 * k_quantum_mm) << i;
-      const double moved = i > s.begin ? std::fabs(path[i] - path[i - 1]) - std::fabs(r.x_mm[i] - r.x_mm[i - 1]) : 0.0;
+      const double moved =
+          i > s.begin ? std::fabs(path[i] - path[i - 1]) - std::fabs(r.x_mm[i] - r.x_mm[i - 1])
+                      : 0.0;
       EXPECT_LT(moved, 2.01 * k_quantum_mm) << i;
     }
 }
 
 TEST(Holds, ThatRepeatAreNoCause) {
-  // the error of rounding is the same in all six sessions; before twins repeated it, too, something was named in every such recording
+  // the error of rounding is the same in all six sessions; before twins repeated it, too, something
+  // was named in every such recording
   int named = 0;
   for (int draw = 0; draw < 3; ++draw) {
     const Explanation e = explain(made::recording(coarse(new_seed("one programme"), true)));
@@ -115,11 +124,14 @@ TEST(Holds, ThatRepeatDoNotHideFriction) {
   int found = 0;
   for (int draw = 0; draw < 3; ++draw) {
     const Recording r =
-        made::recording(coarse(new_seed("one programme"), true), [](const made::Row& q) { return 0.04 * std::tanh(q.v_mm_s / 0.02); });
+        made::recording(coarse(new_seed("one programme"), true),
+                        [](const made::Row& q) { return 0.04 * std::tanh(q.v_mm_s / 0.02); });
     const Explanation e = explain(r);
     const auto is_friction = [](const std::string& name) { return name == "coulomb_friction"; };
-    const bool told = !e.causes.empty() && (is_friction(mechanism_at(e.causes.front().term.mechanism).name) ||
-                                            std::any_of(e.causes.front().aliases.begin(), e.causes.front().aliases.end(), is_friction));
+    const bool told =
+        !e.causes.empty() && (is_friction(mechanism_at(e.causes.front().term.mechanism).name) ||
+                              std::any_of(e.causes.front().aliases.begin(),
+                                          e.causes.front().aliases.end(), is_friction));
     found += told ? 1 : 0;
     if (!told) std::cout << english_text(to_text(e));
   }

@@ -21,7 +21,8 @@ Recording rows(Eigen::Index n) {
 Series remembering(const Recording& r, double rho, double sd) {
   Random random(7);
   Series e(r.rows());
-  for (Eigen::Index i = 0; i < e.size(); ++i) e[i] = (i > 0 ? rho * e[i - 1] : 0.0) + sd * std::sqrt(1 - rho * rho) * random.normal();
+  for (Eigen::Index i = 0; i < e.size(); ++i)
+    e[i] = (i > 0 ? rho * e[i - 1] : 0.0) + sd * std::sqrt(1 - rho * rho) * random.normal();
   return e;
 }
 
@@ -33,7 +34,8 @@ TEST(Noise, ScatterAndMemoryAreFoundAboutTheMeanOfEachSession) {
     const Noise n = estimate_noise(r, e, Series::Ones(r.rows()));
     EXPECT_NEAR(n.rho, rho, 0.03);
     EXPECT_NEAR(n.sd_n, 0.03, 0.003);
-    // a share of 0.1 counts as white, so the predictor of one row is rho/1.1, and the next ones help a little
+    // a share of 0.1 counts as white, so the predictor of one row is rho/1.1, and the next ones
+    // help a little
     EXPECT_GT(n.step_sd_n, 0.999 * 0.03 * std::sqrt(1 - rho * rho) - 1e-4);
     EXPECT_LT(n.step_sd_n, 0.03 * std::sqrt(1 - 2 * rho * rho / 1.1 + rho * rho / 1.21) + 1e-3);
   }
@@ -48,11 +50,13 @@ TEST(Noise, AnEffectThatIsStillThereMakesItLargerAndNeverSmaller) {
   EXPECT_GE(estimate_noise(r, with, ones).step_sd_n, 0.999 * estimate_noise(r, e, ones).step_sd_n);
 }
 
-/// A swing e_i = 2 q cos(w) e_(i-1) - q² e_(i-2) + u: its coefficients are known, and so is its variance.
+/// A swing e_i = 2 q cos(w) e_(i-1) - q² e_(i-2) + u: its coefficients are known, and so is its
+/// variance.
 Series swinging(const Recording& r, double q, double w, double step_sd) {
   Random random(9);
   Series e = Series::Zero(r.rows());
-  for (Eigen::Index i = 2; i < e.size(); ++i) e[i] = 2 * q * std::cos(w) * e[i - 1] - q * q * e[i - 2] + step_sd * random.normal();
+  for (Eigen::Index i = 2; i < e.size(); ++i)
+    e[i] = 2 * q * std::cos(w) * e[i - 1] - q * q * e[i - 2] + step_sd * random.normal();
   return e;
 }
 
@@ -74,13 +78,16 @@ TEST(Noise, ASwingIsFoundWithItsCoefficients) {
 TEST(Noise, WhitenedRowsAreIndependentWithVarianceOne) {
   const Recording r = rows(40000);
   const Series ones = Series::Ones(r.rows());
-  std::vector<std::pair<Series, Noise>> all{{remembering(r, 0.8, 0.03), {0.8, 0.03, 0.03 * 0.6, {}}}};
-  for (Series e : {remembering(r, 0.0, 0.03), remembering(r, 0.5, 0.03)}) all.emplace_back(e, estimate_noise(r, e, ones));
+  std::vector<std::pair<Series, Noise>> all{
+      {remembering(r, 0.8, 0.03), {0.8, 0.03, 0.03 * 0.6, {}}}};
+  for (Series e : {remembering(r, 0.0, 0.03), remembering(r, 0.5, 0.03)})
+    all.emplace_back(e, estimate_noise(r, e, ones));
   for (auto& [z, noise] : all) {
     Whitening(r, noise, ones, {}).apply(z);
     const Eigen::Index n = z.size();
     EXPECT_NEAR(z.square().mean(), 1.0, 0.03);
-    for (const Eigen::Index lag : {1, 2, 7, 30}) EXPECT_NEAR((z.head(n - lag) * z.tail(n - lag)).mean(), 0.0, 0.06) << lag;
+    for (const Eigen::Index lag : {1, 2, 7, 30})
+      EXPECT_NEAR((z.head(n - lag) * z.tail(n - lag)).mean(), 0.0, 0.06) << lag;
   }
 }
 
@@ -89,8 +96,10 @@ TEST(Noise, TheFirstRowsOfASessionHaveTheVarianceOfTheOthers) {
   const Noise noise{0.0, 0.0, step, {2 * q * std::cos(w), -q * q}};
   Recording r = rows(20);
   const Whitening white(r, noise, Series::Ones(r.rows()), {});
-  // the process itself has, by Yule and Walker, variance (1 + q²)/((1 - q²)(1 - 2 q² cos 2w + q⁴)) step²
-  const double variance = step * step * (1 + q * q) / ((1 - q * q) * (1 - 2 * q * q * std::cos(2 * w) + q * q * q * q));
+  // the process itself has, by Yule and Walker, variance (1 + q²)/((1 - q²)(1 - 2 q² cos 2w + q⁴))
+  // step²
+  const double variance =
+      step * step * (1 + q * q) / ((1 - q * q) * (1 - 2 * q * q * std::cos(2 * w) + q * q * q * q));
   EXPECT_NEAR(white.root_weight()[0], 1.0 / std::sqrt(variance), 1e-9 / std::sqrt(variance));
   EXPECT_NEAR(white.root_weight()[5], 1.0 / step, 1e-9 / step);
 }

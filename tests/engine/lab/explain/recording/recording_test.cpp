@@ -11,15 +11,19 @@
 namespace cavum::explain {
 namespace {
 
-using testing_basics::code_of, testing_basics::place_of, testing_basics::tells, testing_basics::thrown_by;
+using testing_basics::code_of, testing_basics::place_of, testing_basics::tells,
+    testing_basics::thrown_by;
 
 bool has_fault(const Recording& r, DataFault::Kind kind) {
   const auto faults = data_faults(r);
-  return std::any_of(faults.begin(), faults.end(), [kind](const DataFault& f) { return f.kind == kind; });
+  return std::any_of(faults.begin(), faults.end(),
+                     [kind](const DataFault& f) { return f.kind == kind; });
 }
 
 TEST(Recording, KeepsSessionsKnownAndUnknownColumnsAndNumbersWords) {
-  const Recording r = parse_recording("# note\nsession,t_s,x_mm,f_n,bur_id,humidity\na,0,1,2,old,40\na,0.1,1.5,2.5,old,41\nb,0,1,2,new,\n", "r.csv");
+  const Recording r = parse_recording(
+      "# note\nsession,t_s,x_mm,f_n,bur_id,humidity\na,0,1,2,old,40\na,0.1,1.5,2.5,old,41\nb,0,1,2,new,\n",
+      "r.csv");
   ASSERT_EQ(r.sessions.size(), 2u);
   EXPECT_EQ(r.sessions[1].begin, 2);
   EXPECT_EQ((*r.column("bur_id"))[2], 1.0);
@@ -29,7 +33,8 @@ TEST(Recording, KeepsSessionsKnownAndUnknownColumnsAndNumbersWords) {
 }
 
 TEST(Recording, ColumnsOfOtherNamesAreMapped) {
-  const Recording r = parse_recording("time;way;load\n0;1;2\n1;2;3\n", "r.csv", {{"t_s", "time"}, {"x_mm", "way"}, {"f_n", "load"}});
+  const Recording r = parse_recording("time;way;load\n0;1;2\n1;2;3\n", "r.csv",
+                                      {{"t_s", "time"}, {"x_mm", "way"}, {"f_n", "load"}});
   EXPECT_EQ(r.x_mm[1], 2.0);
   EXPECT_EQ(r.sessions.size(), 1u);
 }
@@ -49,9 +54,11 @@ TEST(Recording, ErrorsNameLineAndColumn) {
       {"t_s,x_mm,f_n\n0,1,2\n", FileError::missing, {"speed"}, {{"v_mm_s", "speed"}}},
   };
   for (const auto& c : cases) {
-    const auto error = thrown_by([&] { static_cast<void>(parse_recording(c.csv, "r.csv", c.names)); });
+    const auto error =
+        thrown_by([&] { static_cast<void>(parse_recording(c.csv, "r.csv", c.names)); });
     EXPECT_EQ(code_of(error), c.code) << c.csv;
-    for (const char* name : c.tells) EXPECT_TRUE(tells(error, name) || place_of(error) == name) << c.csv << ": " << name;
+    for (const char* name : c.tells)
+      EXPECT_TRUE(tells(error, name) || place_of(error) == name) << c.csv << ": " << name;
   }
 }
 
@@ -82,7 +89,8 @@ TEST(Faults, TheUnitOfTimeIsJudgedByTheRowsThatTellIt) {
   EXPECT_TRUE(has_fault(r, DataFault::Kind::time_base));
   // a hold written in wide steps after a quick ramp, on average more than a second apart
   Recording uneven;
-  for (const double t : {0.0, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 40.0})
+  for (const double t :
+       {0.0, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 40.0})
     uneven.t_s.conservativeResize(uneven.t_s.size() + 1), uneven.t_s[uneven.t_s.size() - 1] = t;
   uneven.x_mm = (1.0 - (-uneven.t_s).exp()).eval();
   uneven.f_n = uneven.x_mm;
@@ -91,7 +99,8 @@ TEST(Faults, TheUnitOfTimeIsJudgedByTheRowsThatTellIt) {
   // packets: of two rows one comes a microsecond after the other
   Recording packets = made::recording({});
   for (const auto& s : packets.sessions)
-    for (Eigen::Index i = s.begin; i + 1 < s.end; i += 2) packets.t_s[i + 1] = packets.t_s[i] + 1e-6;
+    for (Eigen::Index i = s.begin; i + 1 < s.end; i += 2)
+      packets.t_s[i + 1] = packets.t_s[i] + 1e-6;
   EXPECT_FALSE(has_fault(packets, DataFault::Kind::time_base));
 }
 
@@ -99,7 +108,8 @@ TEST(Faults, SpeedThatDoesNotIntegrateToThePosition) {
   Recording r = made::recording({});
   r.v_mm_s = Series::Zero(r.rows());
   for (const auto& s : r.sessions)
-    for (Eigen::Index i = s.begin + 1; i + 1 < s.end; ++i) r.v_mm_s[i] = (r.x_mm[i + 1] - r.x_mm[i - 1]) / (r.t_s[i + 1] - r.t_s[i - 1]);
+    for (Eigen::Index i = s.begin + 1; i + 1 < s.end; ++i)
+      r.v_mm_s[i] = (r.x_mm[i + 1] - r.x_mm[i - 1]) / (r.t_s[i + 1] - r.t_s[i - 1]);
   EXPECT_TRUE(data_faults(r).empty());
   Recording slow = r;
   slow.t_s *= 1.05;

@@ -16,14 +16,16 @@ std::pair<Eigen::Index, Eigen::Index> middle_of(const Recording& r, std::size_t 
 }
 
 bool says(const std::vector<DataFault>& faults, DataFault::Kind kind) {
-  return std::any_of(faults.begin(), faults.end(), [kind](const DataFault& f) { return f.kind == kind; });
+  return std::any_of(faults.begin(), faults.end(),
+                     [kind](const DataFault& f) { return f.kind == kind; });
 }
 
 Recording with_speed() {
   Recording r = made::recording({});
   r.v_mm_s = Series::Zero(r.rows());
   for (const auto& s : r.sessions)
-    for (Eigen::Index i = s.begin + 1; i + 1 < s.end; ++i) r.v_mm_s[i] = (r.x_mm[i + 1] - r.x_mm[i - 1]) / (r.t_s[i + 1] - r.t_s[i - 1]);
+    for (Eigen::Index i = s.begin + 1; i + 1 < s.end; ++i)
+      r.v_mm_s[i] = (r.x_mm[i + 1] - r.x_mm[i - 1]) / (r.t_s[i + 1] - r.t_s[i - 1]);
   return r;
 }
 
@@ -62,7 +64,9 @@ TEST(Standstill, AClockThatJumpsIsNamedAndMissingRowsAreNot) {
   const auto& s = sound.sessions[1];
   Eigen::Index fast = s.begin + 10;
   for (Eigen::Index i = s.begin + 10; i + 60 < s.end; ++i)
-    if (std::fabs(sound.x_mm[i + 4] - sound.x_mm[i - 4]) > std::fabs(sound.x_mm[fast + 4] - sound.x_mm[fast - 4])) fast = i;
+    if (std::fabs(sound.x_mm[i + 4] - sound.x_mm[i - 4]) >
+        std::fabs(sound.x_mm[fast + 4] - sound.x_mm[fast - 4]))
+      fast = i;
   Recording jumped = sound;
   for (Eigen::Index i = fast; i < s.end; ++i) jumped.t_s[i] += 1.7;
   EXPECT_TRUE(says(data_faults(jumped), DataFault::Kind::clock_jump));
@@ -70,7 +74,8 @@ TEST(Standstill, AClockThatJumpsIsNamedAndMissingRowsAreNot) {
   Recording missing = sound;
   const Eigen::Index lost = 40;
   for (Eigen::Index i = fast; i + lost < s.end; ++i)
-    missing.t_s[i] = sound.t_s[i + lost], missing.x_mm[i] = sound.x_mm[i + lost], missing.f_n[i] = sound.f_n[i + lost];
+    missing.t_s[i] = sound.t_s[i + lost], missing.x_mm[i] = sound.x_mm[i + lost],
+    missing.f_n[i] = sound.f_n[i + lost];
   for (Eigen::Index i = s.end - lost; i < s.end; ++i) missing.t_s[i] = missing.t_s[i - 1] + 0.02;
   EXPECT_GT(missing.t_s[fast] - missing.t_s[fast - 1], 0.7);
   EXPECT_TRUE(jump_faults(missing).empty());

@@ -1,4 +1,5 @@
-// Places on a surface in blocks of space: which is nearest is found without looking at those that cannot be.
+// Places on a surface in blocks of space: which is nearest is found without looking at those that
+// cannot be.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 
 namespace cavum::grading {
 
-class PlaceBlocks {
+class SiteBlocks {
  public:
   /// `leaf` says in which block a place is put.
   void add(IVec3 leaf, Vec3 place_mm) {
@@ -19,8 +20,8 @@ class PlaceBlocks {
     b.box.add(place_mm);
   }
   [[nodiscard]] bool empty() const noexcept { return blocks_.empty(); }
-  /// Puts the nearest place that is nearer than `nearest_mm` into both; false when none is. Of equals the first in an order that is the same
-  /// everywhere.
+  /// Puts the nearest place that is nearer than `nearest_mm` into both; false when none is. Of
+  /// equals the first in an order that is the same everywhere.
   bool nearer(Vec3 from_mm, double& nearest_mm, Vec3& place_mm) const {
     bool found = false;
     for (const auto& [at, block] : blocks_) {
@@ -42,8 +43,11 @@ class PlaceBlocks {
     Bounds box;
     /// No place in it is nearer.
     [[nodiscard]] double at_least_mm(Vec3 p) const {
-      const auto outside = [](double v, double from, double to) { return std::max({from - v, v - to, 0.0}); };
-      return length({outside(p.x, box.low.x, box.high.x), outside(p.y, box.low.y, box.high.y), outside(p.z, box.low.z, box.high.z)});
+      const auto outside = [](double v, double from, double to) {
+        return std::max({from - v, v - to, 0.0});
+      };
+      return length({outside(p.x, box.low.x, box.high.x), outside(p.y, box.low.y, box.high.y),
+                     outside(p.z, box.low.z, box.high.z)});
     }
   };
   std::map<std::array<int, 3>, Block> blocks_;

@@ -1,4 +1,5 @@
-// What an exception says, in the reader's language where it is one of ours; what the system or a library says is a name.
+// What an exception says, in the reader's language where it is one of ours; what the system or a
+// library says is a name.
 #pragma once
 
 #include <exception>
@@ -7,7 +8,7 @@
 
 namespace cavum {
 
-[[nodiscard]] inline Message said_by(const std::exception& wrong) {
+[[nodiscard]] inline Message message_from(const std::exception& wrong) {
   const auto* error = dynamic_cast<const Error*>(&wrong);
   return error != nullptr ? error->message() : Message(cavum::Name{wrong.what()});
 }

@@ -1,4 +1,4 @@
-#include "engine/tooth/beside.h"
+#include "engine/tooth/adjacent.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,9 @@ BrickBox bricks_around(const Octree& tree, const TissueSet& tissues) {
   const LeafBounds box = tree.bounds([&](std::uint8_t t) { return tissues[t]; });
   if (box.empty()) return {{0, 0, 0}, {0, 0, 0}};
   const auto down = [](int v) { return std::max(0, v - k_near_leaves) / k_edge * k_edge; };
-  const auto up = [](int v, int n) { return (std::min(n, v + k_near_leaves) + k_edge - 1) / k_edge * k_edge; };
+  const auto up = [](int v, int n) {
+    return (std::min(n, v + k_near_leaves) + k_edge - 1) / k_edge * k_edge;
+  };
   const IVec3 n = tree.size(), first{down(box.low.x), down(box.low.y), down(box.low.z)};
   return {first, IVec3{up(box.high.x, n.x), up(box.high.y, n.y), up(box.high.z, n.z)} - first};
 }
@@ -52,7 +54,8 @@ TissueGrid leaves_of(const Octree& tree, const BrickBox& box) {
 
 /// Marks what lies within k_near_leaves of a marked leaf along every axis.
 void widen(std::vector<std::uint8_t>& mark, IVec3 size) {
-  const std::size_t x = static_cast<std::size_t>(size.x), y = static_cast<std::size_t>(size.y), z = static_cast<std::size_t>(size.z);
+  const std::size_t x = static_cast<std::size_t>(size.x), y = static_cast<std::size_t>(size.y),
+                    z = static_cast<std::size_t>(size.z);
   std::vector<int> last;  // of each line: the place of its last mark
   // along x line by line, along y and z all lines that lie together at once
   const auto along = [&](std::size_t lines, std::size_t n, std::size_t blocks) {
@@ -64,8 +67,10 @@ void widen(std::vector<std::uint8_t>& mark, IVec3 size) {
       for (int i = 0; i < static_cast<int>(n) + k_near_leaves; ++i) {
         const int at = i - k_near_leaves;  // sees marks from k_near_leaves before it up to `i`
         for (std::size_t line = 0; line < lines; ++line) {
-          if (i < static_cast<int>(n) && was[static_cast<std::size_t>(i) * lines + line] != 0) last[line] = i;
-          if (at >= 0 && last[line] >= at - k_near_leaves) first[static_cast<std::size_t>(at) * lines + line] = 1;
+          if (i < static_cast<int>(n) && was[static_cast<std::size_t>(i) * lines + line] != 0)
+            last[line] = i;
+          if (at >= 0 && last[line] >= at - k_near_leaves)
+            first[static_cast<std::size_t>(at) * lines + line] = 1;
         }
       }
     }
@@ -86,8 +91,10 @@ const std::vector<Step>& steps_around() {
     for (int z = -k_near_leaves; z <= k_near_leaves; ++z)
       for (int y = -k_near_leaves; y <= k_near_leaves; ++y)
         for (int x = -k_near_leaves; x <= k_near_leaves; ++x)
-          if (x != 0 || y != 0 || z != 0) all.push_back({{x, y, z}, std::sqrt(static_cast<double>(x * x + y * y + z * z))});
-    std::stable_sort(all.begin(), all.end(), [](const Step& a, const Step& b) { return a.leaves < b.leaves; });
+          if (x != 0 || y != 0 || z != 0)
+            all.push_back({{x, y, z}, std::sqrt(static_cast<double>(x * x + y * y + z * z))});
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Step& a, const Step& b) { return a.leaves < b.leaves; });
     return all;
   }();
   return k_steps;
@@ -106,8 +113,10 @@ double leaves_from(const TissueGrid& part, const std::vector<std::uint8_t>& stay
   return least;
 }
 
-/// The leaves of a box without some tissues. `alone`: nothing but what stays counts, also where the other lies outside the box.
-TissueGrid part_without(const Octree& tree, const BrickBox& box, const TissueSet& gone, bool alone) {
+/// The leaves of a box without some tissues. `alone`: nothing but what stays counts, also where the
+/// other lies outside the box.
+TissueGrid part_without(const Octree& tree, const BrickBox& box, const TissueSet& gone,
+                        bool alone) {
   constexpr double k_same_leaves = 0.08;  // what the codes and the formula leave open
   const TissueGrid before = leaves_of(tree, box);
   TissueGrid part = before;
@@ -127,8 +136,10 @@ TissueGrid part_without(const Octree& tree, const BrickBox& box, const TissueSet
       for (int x = 0; x < box.size.x; ++x, ++i) {
         if (gone[before.tissue[i]]) part.tissue[i] = k_air;
         if (stays[i] != 0 || (near_gone[i] == 0 && !alone)) continue;
-        const double anew = near_stays[i] != 0 ? leaves_from(before, stays, {x, y, z}) : k_distance_band_leaves;
-        // of a place that was outside all along the old distance stands unless something nearer went
+        const double anew =
+            near_stays[i] != 0 ? leaves_from(before, stays, {x, y, z}) : k_distance_band_leaves;
+        // of a place that was outside all along the old distance stands unless something nearer
+        // went
         if (goes[i] != 0 || anew - decode_distance(before.distance[i]) > k_same_leaves)
           part.distance[i] = std::max(encode_distance(anew), std::int8_t{1});
       }
@@ -137,9 +148,15 @@ TissueGrid part_without(const Octree& tree, const BrickBox& box, const TissueSet
 
 }  // namespace
 
-bool is_of_neighbour(std::string_view tissue) noexcept { return known_tissue(tissue).kind == TissueKind::neighbour; }
-bool is_gum(std::string_view tissue) noexcept { return known_tissue(tissue).kind == TissueKind::gum; }
-bool stands_beside(std::string_view tissue) noexcept { return is_gum(tissue) || is_of_neighbour(tissue); }
+bool is_of_neighbour(std::string_view tissue) noexcept {
+  return known_tissue(tissue).kind == TissueKind::neighbour;
+}
+bool is_gum(std::string_view tissue) noexcept {
+  return known_tissue(tissue).kind == TissueKind::gum;
+}
+bool is_adjacent(std::string_view tissue) noexcept {
+  return is_gum(tissue) || is_of_neighbour(tissue);
+}
 
 Message tissue_words(std::string_view tissue) {
   const KnownTissue known = known_tissue(tissue);
@@ -148,13 +165,15 @@ Message tissue_words(std::string_view tissue) {
   return msg("{}", Term{words});
 }
 
-TissueSet tissues_beside(const Tooth& tooth) { return tissues_that(tooth, stands_beside); }
+TissueSet adjacent_tissues(const Tooth& tooth) { return tissues_that(tooth, is_adjacent); }
 TissueSet tissues_of(const Tooth& tooth, TissueKind kind) {
-  return tissues_that(tooth, [kind](std::string_view name) { return known_tissue(name).kind == kind; });
+  return tissues_that(tooth,
+                      [kind](std::string_view name) { return known_tissue(name).kind == kind; });
 }
 
-bool has_beside(const Tooth& tooth) {
-  return std::any_of(tooth.tissues.begin(), tooth.tissues.end(), [](const Tissue& t) { return stands_beside(t.name); });
+bool has_adjacent(const Tooth& tooth) {
+  return std::any_of(tooth.tissues.begin(), tooth.tissues.end(),
+                     [](const Tissue& t) { return is_adjacent(t.name); });
 }
 
 Octree octree_without(const Octree& tree, const TissueSet& gone) {
@@ -163,8 +182,8 @@ Octree octree_without(const Octree& tree, const TissueSet& gone) {
 }
 
 Tooth own_tooth(const Tooth& tooth) {
-  if (!has_beside(tooth)) return tooth;
-  return {tooth, octree_without(tooth.octree, tissues_beside(tooth)), tooth.tissues};
+  if (!has_adjacent(tooth)) return tooth;
+  return {tooth, octree_without(tooth.octree, adjacent_tissues(tooth)), tooth.tissues};
 }
 
 Octree neighbours_alone(const Tooth& tooth) {
@@ -173,7 +192,9 @@ Octree neighbours_alone(const Tooth& tooth) {
   for (std::size_t i = 0; i < others.size(); ++i) others[i] = i != k_air && !neighbours[i];
   const BrickBox box = bricks_around(tooth.octree, neighbours);
   const Octree empty = tooth.octree.emptied();
-  return box.size.x == 0 ? empty : empty.with_leaves(box.low, part_without(tooth.octree, box, others, true));
+  return box.size.x == 0
+             ? empty
+             : empty.with_leaves(box.low, part_without(tooth.octree, box, others, true));
 }
 
 }  // namespace cavum

@@ -1,4 +1,5 @@
-// No verb writes over what it reads: an exam, a scenario, a scan cannot be lost by a slip in a file name.
+// No verb writes over what it reads: an exam, a scenario, a scan cannot be lost by a slip in a file
+// name.
 #include <filesystem>
 
 #include "tests/ui/program.h"
@@ -12,7 +13,8 @@ class OwnPlaces : public testing_ui::Program {
  protected:
   void SetUp() override {
     Program::SetUp();
-    fs::copy(std::string(CAVUM_SOURCE_DIR) + "/tests/replay/sessions/block_expert.cavum", path("s.cavum"));
+    fs::copy(std::string(CAVUM_SOURCE_DIR) + "/tests/replay/sessions/block_expert.cavum",
+             path("s.cavum"));
     fs::copy(std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/slot.toml", path("slot.toml"));
     write_text_file(path("e.stl"), "solid e\nendsolid e\n");
   }
@@ -32,15 +34,16 @@ TEST_F(OwnPlaces, ASealedExamIsNoPlaceForAVerdict) {
 }
 
 TEST_F(OwnPlaces, AnExamKeepsItsScenario) {
-  const std::string exam = "exam " + path("slot.toml") + " --candidate x --operator expert --out " + path("x.cavum");
+  const std::string exam =
+      "exam " + path("slot.toml") + " --candidate x --operator expert --out " + path("x.cavum");
   expect_kept("slot.toml", exam + " --report " + path("slot.toml"));
   expect_refused(exam + " --report " + path("x.cavum"), {"x.cavum"});
   EXPECT_FALSE(fs::exists(path("x.cavum"))) << "it is said before the exam begins";
 }
 
 TEST_F(OwnPlaces, AScanAndAToothAreKept) {
-  expect_kept("e.stl",
-              "tooth import --enamel " + path("e.stl") + " --dentin " + path("d.stl") + " --pulp " + path("p.stl") + " --out " + path("e.stl"));
+  expect_kept("e.stl", "tooth import --enamel " + path("e.stl") + " --dentin " + path("d.stl") +
+                           " --pulp " + path("p.stl") + " --out " + path("e.stl"));
   ASSERT_EQ(run("tooth make cube --edge-mm 1 --leaf-mm 0.1 --out " + path("c.cvt")).exit_code, 0);
   expect_kept("c.cvt", "tooth mesh " + path("c.cvt") + " --out " + path("c.cvt"));
 }

@@ -9,17 +9,21 @@
 namespace cavum::testing {
 
 /// Work on a tooth that does not stand alone.
-struct CarvedBeside : Carved {
-  CarvedBeside(const std::string& scenario_toml, Tooth tooth) : Carved(scenario_toml, std::move(tooth)), apart(grading::take_apart(before)) {}
+struct CarvedAdjacent : Carved {
+  CarvedAdjacent(const std::string& scenario_toml, Tooth tooth)
+      : Carved(scenario_toml, std::move(tooth)), apart(grading::take_apart(before)) {}
   /// Calls `use(input)` with all of it.
   template <class Use>
   auto with_input(const Use& use) const {
     const grading::WorkApart own = grading::take_apart(*apart, after, removed);
-    const grading::GradeBeside beside{*apart, before, after, removed};
-    return use(grading::GradeInput{scenario, apart->own, zones, own.after, inputs, records, own.removed, events, -1, nullptr, nullptr, &beside});
+    const grading::AdjacentInput beside{*apart, before, after, removed};
+    return use(grading::GradeInput{scenario, apart->own, zones, own.after, inputs, records,
+                                   own.removed, events, -1, nullptr, nullptr, &beside});
   }
   [[nodiscard]] grading::Result graded() const {
-    return with_input([this](const grading::GradeInput& input) { return grading::grade(input, scenario.rubric); });
+    return with_input([this](const grading::GradeInput& input) {
+      return grading::grade(input, scenario.rubric);
+    });
   }
   std::shared_ptr<const grading::ToothApart> apart;
 };

@@ -1,4 +1,4 @@
-#include "engine/tooth/make/set_beside.h"
+#include "engine/tooth/make/add_adjacent.h"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 #include "engine/base/det_math.h"
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "engine/tooth/adjacent.h"
 #include "engine/tooth/anatomy/polylines.h"
-#include "engine/tooth/beside.h"
 #include "engine/tooth/distance.h"
 #include "engine/tooth/fill.h"
 #include "engine/tooth/make/add_gum.h"
@@ -21,26 +21,30 @@ namespace cavum {
 namespace {
 
 constexpr double k_below_contact_mm = 5.0;
-constexpr double k_area_mm = 0.05;        // surfaces nearer than that are the contact area
-constexpr double k_seen_leaves = 1.95;    // further than that a distance only says "far"
-constexpr double k_facing_mm = 2.5;       // of the tooth's surface, how deep behind its furthest place
+constexpr double k_area_mm = 0.05;      // surfaces nearer than that are the contact area
+constexpr double k_seen_leaves = 1.95;  // further than that a distance only says "far"
+constexpr double k_facing_mm = 2.5;  // of the tooth's surface, how deep behind its furthest place
 constexpr double k_max_overlap_mm = 3.0;  // bodies that have not met by then do not face each other
 constexpr int k_edge_leaves = 3;          // of air that stays at the lattice's sides
 
 /// Places on the solid surface of a body with x beyond `from` on a side.
-std::vector<Vec3> surface_places(const Octree& tree, int side, double from_mm) {
+std::vector<Vec3> surface_positions(const Octree& tree, int side, double from_mm) {
   constexpr IVec3 k_steps[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   std::vector<Vec3> places;
   Octree::Cursor cursor;
   tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t tissue) {
-    if (!tree.is_solid(tissue) || side * tree.centre_mm(at + IVec3{side > 0 ? edge - 1 : 0, 0, 0}).x < side * from_mm) return;
+    if (!tree.is_solid(tissue) ||
+        side * tree.centre_mm(at + IVec3{side > 0 ? edge - 1 : 0, 0, 0}).x < side * from_mm)
+      return;
     for (int z = 0; z < edge; ++z)
       for (int y = 0; y < edge; ++y)
         for (int x = 0; x < edge; ++x) {
           const IVec3 leaf = at + IVec3{x, y, z};
           const Vec3 centre = tree.centre_mm(leaf);
           if (side * centre.x < side * from_mm) continue;
-          if (std::none_of(std::begin(k_steps), std::end(k_steps), [&](IVec3 s) { return !tree.is_solid(tree.tissue(leaf + s)); })) continue;
+          if (std::none_of(std::begin(k_steps), std::end(k_steps),
+                           [&](IVec3 s) { return !tree.is_solid(tree.tissue(leaf + s)); }))
+            continue;
           const SurfaceSample s = tree.sample(centre, cursor);
           places.push_back(centre - normalized(s.gradient) * s.distance_mm);
         }
@@ -52,7 +56,9 @@ std::vector<Vec3> surface_places(const Octree& tree, int side, double from_mm) {
 double furthest_mm(const Octree& tree, int side) {
   double far = -1e9;
   tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t tissue) {
-    if (tree.is_solid(tissue)) far = std::max(far, side * (tree.origin_mm().x + (side > 0 ? at.x + edge : at.x) * tree.leaf_mm()));
+    if (tree.is_solid(tissue))
+      far = std::max(
+          far, side * (tree.origin_mm().x + (side > 0 ? at.x + edge : at.x) * tree.leaf_mm()));
   });
   return far;
 }
@@ -60,7 +66,8 @@ double furthest_mm(const Octree& tree, int side) {
 double top_mm(const Octree& tree) {
   double top = -1e9;
   tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t tissue) {
-    if (tree.is_solid(tissue)) top = std::max(top, tree.origin_mm().z + (at.z + edge) * tree.leaf_mm());
+    if (tree.is_solid(tissue))
+      top = std::max(top, tree.origin_mm().z + (at.z + edge) * tree.leaf_mm());
   });
   return top;
 }
@@ -79,15 +86,18 @@ struct Placed {
     p.at.x += x_mm;
     return p;
   }
-  [[nodiscard]] double least_mm(const std::vector<Vec3>& places, Octree::Cursor& cursor) const noexcept {
+  [[nodiscard]] double least_mm(const std::vector<Vec3>& places,
+                                Octree::Cursor& cursor) const noexcept {
     double least = 1e9;
     for (const Vec3 p : places) least = std::min(least, tree->sample(into(p), cursor).distance_mm);
     return least;
   }
 };
 
-/// Moved along x until the least distance from `places` is `wanted_mm`; none where they do not meet.
-std::optional<Placed> moved_to_contact(Placed n, int side, const std::vector<Vec3>& places, double wanted_mm) {
+/// Moved along x until the least distance from `places` is `wanted_mm`; none where they do not
+/// meet.
+std::optional<Placed> moved_to_contact(Placed n, int side, const std::vector<Vec3>& places,
+                                       double wanted_mm) {
   constexpr int k_halvings = 24;
   const double leaf = n.tree->leaf_mm();
   Octree::Cursor cursor;
@@ -112,7 +122,9 @@ ContactFacts contact_facts(const Placed& n, const std::vector<Vec3>& places) {
   Bounds box;
   double count = 0;
   std::vector<double> d;
-  for (const Vec3 p : places) facts.gap_mm = std::min(facts.gap_mm, d.emplace_back(n.tree->sample(n.into(p), cursor).distance_mm));
+  for (const Vec3 p : places)
+    facts.gap_mm =
+        std::min(facts.gap_mm, d.emplace_back(n.tree->sample(n.into(p), cursor).distance_mm));
   for (std::size_t i = 0; i < d.size(); ++i) {
     if (d[i] > std::min(facts.gap_mm + k_area_mm, k_seen_leaves * n.tree->leaf_mm())) continue;
     const Vec3 p = places[i];
@@ -144,7 +156,8 @@ TissueGrid with_room(const TissueGrid& grid, IVec3 before, IVec3 after, const st
 }
 
 /// The tissue of a neighbour at a place where its distance says solid.
-std::uint8_t tissue_of_neighbour(const Octree& tree, std::uint8_t enamel, Vec3 q, Octree::Cursor& cursor, const BesideIds& ids) {
+std::uint8_t tissue_of_neighbour(const Octree& tree, std::uint8_t enamel, Vec3 q,
+                                 Octree::Cursor& cursor, const AdjacentIds& ids) {
   std::uint8_t t = tree.tissue_at(q, cursor);
   if (!tree.is_solid(t)) {  // its leaf's centre lies just outside
     const Vec3 inwards = normalized(-tree.sample(q, cursor).gradient);
@@ -165,25 +178,30 @@ struct Side {
   Message doubt;  ///< whether it stands beside the tooth in a jaw: confirmed, or not checked
 };
 
-void lay_neighbour(TissueGrid& grid, const Side& s, const BesideIds& ids) {
+void lay_neighbour(TissueGrid& grid, const Side& s, const AdjacentIds& ids) {
   const double leaf = grid.leaf_mm, low_z = s.facts.at_mm.z - k_below_contact_mm;
   const Vec3 first = grid.centre_mm({k_edge_leaves, k_edge_leaves, k_edge_leaves});
-  const Vec3 last = grid.centre_mm(grid.size - IVec3{k_edge_leaves + 1, k_edge_leaves + 1, k_edge_leaves + 1});
+  const Vec3 last =
+      grid.centre_mm(grid.size - IVec3{k_edge_leaves + 1, k_edge_leaves + 1, k_edge_leaves + 1});
   Octree::Cursor cursor;
   std::size_t i = 0;
   for (std::int32_t z = 0; z < grid.size.z; ++z)
     for (std::int32_t y = 0; y < grid.size.y; ++y)
       for (std::int32_t x = 0; x < grid.size.x; ++x, ++i) {
         const Vec3 p = grid.centre_mm({x, y, z});
-        if (s.side * (p.x - s.facts.at_mm.x) < -k_facing_mm || p.z < low_z - 2 * leaf || s.side * (p.x - s.limit_x_mm) > 2 * leaf) continue;
+        if (s.side * (p.x - s.facts.at_mm.x) < -k_facing_mm || p.z < low_z - 2 * leaf ||
+            s.side * (p.x - s.limit_x_mm) > 2 * leaf)
+          continue;
         const Vec3 q = s.placed.into(p);
-        const double cut = std::max({s.side * (p.x - s.limit_x_mm), low_z - p.z, first.y - p.y, p.y - last.y, p.z - last.z});
+        const double cut = std::max({s.side * (p.x - s.limit_x_mm), low_z - p.z, first.y - p.y,
+                                     p.y - last.y, p.z - last.z});
         const double d = std::max(s.placed.tree->sample(q, cursor).distance_mm, cut) / leaf;
         if (d < 0 && grid.tissue[i] == k_air) {
           grid.tissue[i] = tissue_of_neighbour(*s.placed.tree, s.enamel, q, cursor, ids);
           grid.distance[i] = std::min(encode_distance(d), std::int8_t{-1});
         } else if (grid.distance[i] > 0) {
-          grid.distance[i] = std::min(grid.distance[i], std::max(encode_distance(d), std::int8_t{1}));
+          grid.distance[i] =
+              std::min(grid.distance[i], std::max(encode_distance(d), std::int8_t{1}));
         }
       }
 }
@@ -201,26 +219,30 @@ Tooth without_hollows(const Tooth& neighbour) {
   return filled_tooth(own_tooth(neighbour), pulp);
 }
 
-Side place_side(const Tooth& tooth, const Landmarks& marks, const BesideTooth& beside, int side, const BesideSpec& spec, const std::string& where) {
+Side place_side(const Tooth& tooth, const Landmarks& marks, const AdjacentTooth& beside, int side,
+                const AdjacentSpec& spec, const std::string& where) {
   Side s;
   s.side = side;
   s.name = beside.tooth->name;
   const std::string word = side > 0 ? "mesial" : "distal", place = where + " --" + word;
   const double leaf = tooth.octree.leaf_mm();
   if (std::fabs(beside.tooth->octree.leaf_mm() - leaf) > 1e-9)
-    throw Error(
-        place,
-        msg("the leaves of '{}' have {}, the tooth's {}", beside.tooth->name, as_mm(beside.tooth->octree.leaf_mm(), k_as_needed), as_number(leaf)),
-        msg("make it with --leaf-mm {}", as_number(leaf)));
+    throw Error(place,
+                msg("the leaves of '{}' have {}, the tooth's {}", beside.tooth->name,
+                    as_mm(beside.tooth->octree.leaf_mm(), k_as_needed), as_number(leaf)),
+                msg("make it with --leaf-mm {}", as_number(leaf)));
   s.filled = without_hollows(*beside.tooth);
   s.enamel = id_of(s.filled, "enamel");
   s.placed.tree = &s.filled.octree;
   s.placed.turn = det_sincos(beside.turn_deg * k_pi / 180);
   const Landmarks other = find_landmarks(s.filled);
   const RowVerdict row =
-      stand_in_a_row({tooth.name, tooth.kind, marks.tooth_class}, {beside.tooth->name, beside.tooth->kind, other.tooth_class}, side);
+      stand_in_a_row({tooth.name, tooth.kind, marks.tooth_class},
+                     {beside.tooth->name, beside.tooth->kind, other.tooth_class}, side);
   if (!row.why_not.empty() && !spec.confirmed)
-    throw Error(place, row.why_not, msg("give its neighbour; where they shall stand so all the same, --confirm neighbours takes them"));
+    throw Error(
+        place, row.why_not,
+        msg("give its neighbour; where they shall stand so all the same, --confirm neighbours takes them"));
   s.doubt = row.why_not.empty() ? row.unchecked : msg("confirmed (neighbours): {}", row.why_not);
   const Vec3 *own_contact = furthest_along(marks.height_of_contour_mm, Vec3{1.0 * side, 0, 0}),
              *its_contact = furthest_along(other.height_of_contour_mm, Vec3{-1.0 * side, 0, 0});
@@ -229,26 +251,33 @@ Side place_side(const Tooth& tooth, const Landmarks& marks, const BesideTooth& b
     s.placed.at = *own_contact;
   }
   const double far = furthest_mm(tooth.octree, side);
-  const std::vector<Vec3> facing = surface_places(tooth.octree, side, side * (far - k_facing_mm));
+  const std::vector<Vec3> facing =
+      surface_positions(tooth.octree, side, side * (far - k_facing_mm));
   double its_reach = -1e9;  // towards the tooth, in the tooth's frame
-  for (const Vec3 q : surface_places(s.filled.octree, -side, -side * (furthest_mm(s.filled.octree, -side) - k_max_overlap_mm))) {
+  for (const Vec3 q :
+       surface_positions(s.filled.octree, -side,
+                         -side * (furthest_mm(s.filled.octree, -side) - k_max_overlap_mm))) {
     const Vec3 r = q - s.placed.own;
-    its_reach = std::max(its_reach, -side * (s.placed.at.x + r.x * s.placed.turn.cos - r.y * s.placed.turn.sin));
+    its_reach = std::max(
+        its_reach, -side * (s.placed.at.x + r.x * s.placed.turn.cos - r.y * s.placed.turn.sin));
   }
   s.placed = s.placed.moved(side * (far + its_reach + 2 * leaf));
   const auto met = moved_to_contact(s.placed, side, facing, spec.contact_mm);
   if (!met)
-    throw Error(place, msg("its surface and the tooth's do not face each other"), msg("check its frame: +x is mesial, +y buccal, +z occlusal"));
+    throw Error(place, msg("its surface and the tooth's do not face each other"),
+                msg("check its frame: +x is mesial, +y buccal, +z occlusal"));
   s.placed = *met;
   s.facts = contact_facts(s.placed, facing);
   s.limit_x_mm = s.facts.at_mm.x + side * spec.reach_mm;
   return s;
 }
 
-/// Numbers for the new tissues: their own where the tooth's table leaves them free, else the next ones.
-BesideIds ids_for(Tooth& tooth, bool neighbours, bool gum) {
+/// Numbers for the new tissues: their own where the tooth's table leaves them free, else the next
+/// ones.
+AdjacentIds ids_for(Tooth& tooth, bool neighbours, bool gum) {
   const auto taken = [&](std::uint8_t id) {
-    return std::any_of(tooth.tissues.begin(), tooth.tissues.end(), [&](const Tissue& t) { return t.id == id; });
+    return std::any_of(tooth.tissues.begin(), tooth.tissues.end(),
+                       [&](const Tissue& t) { return t.id == id; });
   };
   const auto add = [&](const char* name) {
     std::uint8_t wanted = known_tissue(name).id;
@@ -257,8 +286,10 @@ BesideIds ids_for(Tooth& tooth, bool neighbours, bool gum) {
     return wanted;
   };
   constexpr std::size_t k_max_tissues = 200;
-  if (tooth.tissues.size() > k_max_tissues) throw Error(msg("tooth"), msg("has too many tissues to set something beside it"), msg("use fewer"));
-  BesideIds ids;
+  if (tooth.tissues.size() > k_max_tissues)
+    throw Error(msg("tooth"), msg("has too many tissues to set something beside it"),
+                msg("use fewer"));
+  AdjacentIds ids;
   if (neighbours) {
     ids.enamel = add("neighbour_enamel");
     ids.dentin = add("neighbour_dentin");
@@ -267,10 +298,13 @@ BesideIds ids_for(Tooth& tooth, bool neighbours, bool gum) {
   return ids;
 }
 
-int whole_bricks(double leaves) { return leaves <= 0 ? 0 : (static_cast<int>(std::ceil(leaves)) + 3) / 4 * 4; }
+int whole_bricks(double leaves) {
+  return leaves <= 0 ? 0 : (static_cast<int>(std::ceil(leaves)) + 3) / 4 * 4;
+}
 
 /// Room for the neighbours' parts and for the gum.
-TissueGrid grid_for(const Tooth& tooth, const std::vector<Side>& sides, bool gum, const std::string& where) {
+TissueGrid grid_for(const Tooth& tooth, const std::vector<Side>& sides, bool gum,
+                    const std::string& where) {
   const Octree& tree = tooth.octree;
   const double leaf = tree.leaf_mm();
   const IVec3 n = tree.size();
@@ -282,7 +316,8 @@ TissueGrid grid_for(const Tooth& tooth, const std::vector<Side>& sides, bool gum
       after.x = std::max(after.x, whole_bricks(x + k_room - n.x));
     else
       before.x = std::max(before.x, whole_bricks(k_room - x));
-    const double top = (top_mm(s.filled.octree) - s.placed.own.z + s.placed.at.z - tree.origin_mm().z) / leaf;
+    const double top =
+        (top_mm(s.filled.octree) - s.placed.own.z + s.placed.at.z - tree.origin_mm().z) / leaf;
     after.z = std::max(after.z, whole_bricks(top + k_room - n.z));
   }
   if (gum) {
@@ -295,14 +330,15 @@ TissueGrid grid_for(const Tooth& tooth, const std::vector<Side>& sides, bool gum
   return with_room(tree.to_grid(), before, after, where);
 }
 
-/// A brick of the octree without distances is all solid or all void: where something solid that was set beside the tooth borders a void tissue of its
-/// own (periodontium), both get the distance of a border.
+/// A brick of the octree without distances is all solid or all void: where something solid that was
+/// set beside the tooth borders a void tissue of its own (periodontium), both get the distance of a
+/// border.
 void mark_borders(TissueGrid& grid, const std::vector<Tissue>& tissues) {
   constexpr std::int8_t k_half = encode_distance(0.5);
   std::array<bool, 256> solid{}, set{};
   for (const Tissue& t : tissues) {
     solid[t.id] = t.solid;
-    set[t.id] = stands_beside(t.name);
+    set[t.id] = is_adjacent(t.name);
   }
   const std::size_t strides[3] = {1, grid.index({0, 1, 0}), grid.index({0, 0, 1})};
   const auto border = [&](std::size_t a, std::size_t b) {
@@ -319,13 +355,16 @@ void mark_borders(TissueGrid& grid, const std::vector<Tissue>& tissues) {
 
 }  // namespace
 
-SetBeside set_beside(const Tooth& tooth, const BesideSpec& spec, const std::string& where) {
+AddedAdjacent add_adjacent(const Tooth& tooth, const AdjacentSpec& spec, const std::string& where) {
   const double leaf = tooth.octree.leaf_mm();
   check_choice("--contact-mm", spec.contact_mm, 0.0, k_widest_contact_leaves * leaf);
   check_choice("--reach-mm", spec.reach_mm, 1.0, 6.0);
-  if (has_beside(tooth)) throw Error(where, msg("something stands beside the tooth already"), msg("give the tooth alone"));
+  if (has_adjacent(tooth))
+    throw Error(where, msg("something stands beside the tooth already"),
+                msg("give the tooth alone"));
   if (spec.mesial.tooth == nullptr && spec.distal.tooth == nullptr && !spec.gum)
-    throw Error(where, msg("nothing is to be set beside the tooth"), msg("give --mesial, --distal or --gum"));
+    throw Error(where, msg("nothing is to be set beside the tooth"),
+                msg("give --mesial, --distal or --gum"));
   const Landmarks marks = find_landmarks(tooth);
   std::vector<Side> sides;
   for (const auto& [beside, side] : {std::pair(&spec.mesial, 1), std::pair(&spec.distal, -1)}) {
@@ -336,9 +375,9 @@ SetBeside set_beside(const Tooth& tooth, const BesideSpec& spec, const std::stri
   }
   for (Side& s : sides) s.placed.tree = &s.filled.octree;  // the list has grown
 
-  SetBeside out;
+  AddedAdjacent out;
   out.tooth = Tooth{tooth, {}, tooth.tissues};
-  const BesideIds ids = ids_for(out.tooth, !sides.empty(), spec.gum);
+  const AdjacentIds ids = ids_for(out.tooth, !sides.empty(), spec.gum);
   TissueGrid grid = grid_for(tooth, sides, spec.gum, where);
   std::vector<Vec3> contacts;
   for (const Side& s : sides) {
@@ -346,7 +385,8 @@ SetBeside set_beside(const Tooth& tooth, const BesideSpec& spec, const std::stri
     contacts.push_back(s.facts.at_mm);
     (s.side > 0 ? out.mesial : out.distal) = s.facts;
     out.tooth.source.push_back(
-        NeighbourSet{s.side > 0, s.name, s.side > 0 ? spec.mesial.turn_deg : spec.distal.turn_deg, s.facts.gap_mm, s.facts.at_mm});
+        NeighbourSet{s.side > 0, s.name, s.side > 0 ? spec.mesial.turn_deg : spec.distal.turn_deg,
+                     s.facts.gap_mm, s.facts.at_mm});
     if (!s.doubt.empty()) out.tooth.notes.push_back({ToothNote::Kind::warning, s.doubt});
   }
   if (spec.gum) {
@@ -354,13 +394,15 @@ SetBeside set_beside(const Tooth& tooth, const BesideSpec& spec, const std::stri
     out.tooth.source.push_back(GumSet{});
   }
   mark_borders(grid, out.tooth.tissues);
-  if (!sides.empty()) out.tooth.name += sides.size() > 1 ? ", between its neighbours" : ", beside its neighbour";
+  if (!sides.empty())
+    out.tooth.name += sides.size() > 1 ? ", between its neighbours" : ", beside its neighbour";
   if (spec.gum) out.tooth.name += ", in gum";
   out.tooth.octree = Octree(grid, out.tooth.tissues);
   const auto counts = out.tooth.octree.count_leaves();
   for (const Tissue& t : out.tooth.tissues)
     (is_gum(t.name) ? out.gum_mm3 : out.neighbour_mm3) +=
-        stands_beside(t.name) ? static_cast<double>(counts[t.id]) * out.tooth.octree.leaf_volume_mm3() : 0.0;
+        is_adjacent(t.name) ? static_cast<double>(counts[t.id]) * out.tooth.octree.leaf_volume_mm3()
+                            : 0.0;
   return out;
 }
 

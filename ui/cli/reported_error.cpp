@@ -1,4 +1,4 @@
-#include "ui/cli/told_error.h"
+#include "ui/cli/reported_error.h"
 
 #include <nlohmann/json.hpp>
 
@@ -29,7 +29,7 @@ Json to_json(const Error& error) {
 
 }  // namespace
 
-void tell_errors(const std::vector<Error>& errors, bool as_json) {
+void report_errors(const std::vector<Error>& errors, bool as_json) {
   for (const Error& e : errors) say_error(e.message());
   if (!as_json) return;
   Json j = {{"error", to_json(errors.at(0))}};
