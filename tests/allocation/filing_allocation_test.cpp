@@ -27,7 +27,7 @@ std::vector<std::string> texts_of(const records::LedgerContent& c) {
   return out;
 }
 
-class FilingWithoutMemory : public testing::Test {
+class FilingWithoutMemory : public ::testing::Test {
  protected:
   FilingWithoutMemory() {
     school_.emplace();

@@ -93,7 +93,7 @@ void judge(const std::string& path, const Bytes& bytes, const Bytes& original,
   }
 }
 
-class DamagedSession : public testing::Test {
+class DamagedSession : public ::testing::Test {
  protected:
   void SetUp() override {
     test::make_closed_session(path_, k_ticks);

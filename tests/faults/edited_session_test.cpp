@@ -24,7 +24,7 @@ Bytes lifted_inputs(const SessionReader& session, std::size_t index, std::size_t
   return pack_inputs(inputs);
 }
 
-class EditedSession : public testing::Test {
+class EditedSession : public ::testing::Test {
  protected:
   void SetUp() override { test::make_closed_session(path_, 2600); }
 

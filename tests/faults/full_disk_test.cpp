@@ -18,7 +18,7 @@ namespace {
 
 using test::FullDisk;
 
-class FullDiskTest : public testing::Test {
+class FullDiskTest : public ::testing::Test {
  protected:
   /// One tick; true when the recorder complained.
   bool drill_tick(std::int64_t tick) {

@@ -16,7 +16,7 @@
 namespace cavum::fuzz {
 namespace {
 
-class Readers : public testing::TestWithParam<Target> {};
+class Readers : public ::testing::TestWithParam<Target> {};
 
 std::vector<Bytes> findings_of(const std::string& name) {
   std::vector<Bytes> out;
@@ -45,7 +45,7 @@ TEST_P(Readers, AnswerAnyBytes) {
   std::printf("%s: %zu seeds, %d changes\n", target.name, seeds.size(), runs);
 }
 
-INSTANTIATE_TEST_SUITE_P(Fuzz, Readers, testing::ValuesIn(targets()),
+INSTANTIATE_TEST_SUITE_P(Fuzz, Readers, ::testing::ValuesIn(targets()),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 }  // namespace

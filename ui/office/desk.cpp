@@ -329,7 +329,7 @@ Message Desk::station_problem(const std::string& public_key) {
   Turn turn(*this);
   const std::int64_t now = read_clocks().utc_ns;
   const auto problem = turn.book.registry().stations.problem(public_key, now, now);
-  return problem ? problem->what : Message();
+  return problem ? problem->message() : Message();
 }
 
 Enrolled Desk::enrol(const std::string& request) {

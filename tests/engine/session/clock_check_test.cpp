@@ -7,7 +7,7 @@
 namespace cavum {
 namespace {
 
-class ClockCheck : public testing::Test {
+class ClockCheck : public ::testing::Test {
  protected:
   void SetUp() override {
     test::make_closed_session(path_, 6000);

@@ -24,7 +24,7 @@ const std::string k_other_rubric =
     "zero = 0\npoints = 10\n";
 
 /// Four files of two recorded exams, marked, which takes least.
-class Pool : public testing::Test {
+class Pool : public ::testing::Test {
  protected:
   void SetUp() override {
     work_.what = What::mark;

@@ -24,7 +24,7 @@ using testing_basics::thrown_by;
 std::string blob(std::span<const std::uint8_t> bytes) { return "x'" + to_hex(bytes) + "'"; }
 
 /// One school, one sound session; each test works on a copy of both.
-class Attack : public testing::Test {
+class Attack : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     shared_ = new School();

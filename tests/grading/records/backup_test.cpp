@@ -23,7 +23,7 @@ using nlohmann::json;
 
 /// One school, one filed session (entry 4), and another that is not filed yet; each test works on a
 /// copy.
-class BackedUp : public testing::Test {
+class BackedUp : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     shared_ = new School();

@@ -21,7 +21,7 @@ constexpr std::uint64_t k_now_s = 1'800'000'000;
 constexpr int k_changes = 2000;
 
 /// A school, and a cosigner with a memory of its own.
-class Cosigning : public testing::Test {
+class Cosigning : public ::testing::Test {
  protected:
   void add(int entries) {
     Ledger ledger = school_.ledger();

@@ -20,7 +20,7 @@ using testing_basics::tells;
 using testing_basics::thrown_by;
 
 /// A school with one filed exam whose verdict is `review`; each test works on a copy.
-class LeftToAPerson : public testing::Test {
+class LeftToAPerson : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     shared_ = new School();

@@ -32,7 +32,7 @@ std::string where_it_stands(const std::string& folder, const std::string& text) 
 }
 
 /// A candidate with more time has sat the exam, and it is filed; each test works on a copy.
-class Kept : public testing::Test {
+class Kept : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     shared_ = new School();

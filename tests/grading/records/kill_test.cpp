@@ -73,7 +73,7 @@ void try_all(InjectedFault fault, const char* name) {
     }
     expect_nothing_lost(school, acknowledged,
                         std::string(name) + " at change " + std::to_string(n));
-    if (testing::Test::HasFailure()) return;
+    if (::testing::Test::HasFailure()) return;
   }
   std::cout << name << ": " << n - 2 << " places tried, " << changes << " changes without it\n";
   EXPECT_GE(n, 8) << "entering changes files more often than that";

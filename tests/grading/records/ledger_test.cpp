@@ -147,7 +147,7 @@ TEST(Identities, PseudonymsTellNothingAndDiffer) {
 }
 
 /// Two candidates have sat it, and the first one's result is released; each test works on a copy.
-class Released : public testing::Test {
+class Released : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     shared_ = new School();

@@ -20,7 +20,7 @@ using testing_basics::code_of;
 using testing_basics::tells;
 using testing_basics::thrown_by;
 
-class MakeupSitting : public testing::Test {
+class MakeupSitting : public ::testing::Test {
  protected:
   /// Entry of the ticket that was issued last.
   [[nodiscard]] std::uint64_t last_entry() const {

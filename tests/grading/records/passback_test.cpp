@@ -17,7 +17,7 @@ constexpr char k_column[] = "https://moodle.example/7/lineitems/3",
                k_issuer[] = "https://moodle.example";
 
 /// One exam of 4711 is filed.
-class Passbacks : public testing::Test {
+class Passbacks : public ::testing::Test {
  protected:
   void SetUp() override {
     Ledger ledger = school_.ledger();

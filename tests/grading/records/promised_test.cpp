@@ -15,7 +15,7 @@ using testing_basics::code_of;
 using testing_basics::tells;
 using testing_basics::thrown_by;
 
-class Promised : public testing::Test {
+class Promised : public ::testing::Test {
  protected:
   Filing file(const std::string& path) {
     Ledger ledger = school_.ledger();

@@ -15,7 +15,7 @@ const std::string k_rubric =
     "zero = 0\npoints = 10\n";
 
 /// A school with one filed exam; each test works on a copy.
-class KeptRegrade : public testing::Test {
+class KeptRegrade : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     shared_ = new School();

@@ -31,7 +31,7 @@ TEST(DerivedSecret, IsAnotherForEachPurposeAndNeverTheSeed) {
   EXPECT_FALSE(std::equal(a.begin(), a.end(), key.secret_key.begin()));
 }
 
-class SchoolKeys : public testing::Test {
+class SchoolKeys : public ::testing::Test {
  protected:
   void expect_holds() {
     const LedgerCheck check = check_ledger(school_.places(), false);

@@ -55,7 +55,7 @@ std::string forged(const School& school, const std::string& session, const Forge
   return path;
 }
 
-class SchoolMarks : public testing::Test {
+class SchoolMarks : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     shared_ = new School();

@@ -11,7 +11,7 @@ namespace {
 
 using namespace testing_ledger;
 
-class StationTicket : public testing::Test {
+class StationTicket : public ::testing::Test {
  protected:
   HeldTicket held(const std::string& candidate) {
     const std::string path = school_.file(candidate + ".ticket");

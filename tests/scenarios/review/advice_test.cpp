@@ -102,7 +102,7 @@ TEST(Advice, SaysThatTheCavityHasNoSuchWall) {
   };
   for (const char* metric : {"mesial_mean_mm", "mesial_p95_mm", "mesial_max_under_mm"})
     EXPECT_EQ(said(metric), Mistake::unreachable) << metric;
-  EXPECT_EQ(noop("mesial_max_over_mm"), Mistake::idle);
+  EXPECT_EQ(said("mesial_max_over_mm"), Mistake::idle);
   for (const char* metric :
        {"distal_p95_mm", "buccal_mean_mm", "floor_max_over_mm", "side_walls_p95_mm"})
     EXPECT_FALSE(said(metric)) << metric;
@@ -121,9 +121,9 @@ TEST(Advice, SaysThatAScenarioWasWrittenForAnotherTooth) {
       return p.mistake == Mistake::contradictory && testing_basics::tells(p.what, "block.cvt");
     });
   };
-  EXPECT_TRUE(noop("molar.cvt"));
-  EXPECT_FALSE(noop("block.cvt"));
-  EXPECT_FALSE(noop("teeth/block.cvt"));
+  EXPECT_TRUE(said("molar.cvt"));
+  EXPECT_FALSE(said("block.cvt"));
+  EXPECT_FALSE(said("teeth/block.cvt"));
 }
 
 }  // namespace

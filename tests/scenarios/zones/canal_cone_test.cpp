@@ -99,7 +99,7 @@ TEST(CanalCone, SaysWhereTheMouthsAreWhenNoneLiesOnTheSideAskedFor) {
       static_cast<void>(zones_of("[[zones.target]]\nshape = \"canal_cone\"\n" + shape, tooth));
     });
   };
-  const auto enamel = noop("tissue = \"enamel\"\n");
+  const auto enamel = said("tissue = \"enamel\"\n");
   EXPECT_EQ(testing_basics::place_of(enamel), "s.toml:20:1");
   EXPECT_TRUE(testing_basics::tells(enamel, "enamel") &&
               testing_basics::tells(enamel, "test tooth"));

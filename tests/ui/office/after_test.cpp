@@ -14,7 +14,7 @@ using namespace testing_ledger;
 using nlohmann::json;
 
 /// An office with one exam that is filed.
-class AfterTheExam : public testing::Test {
+class AfterTheExam : public ::testing::Test {
  protected:
   void SetUp() override {
     ASSERT_EQ(opened_.issue(officer_, "4711\n").status, 200);

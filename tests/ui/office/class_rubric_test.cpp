@@ -39,7 +39,7 @@ json waited(const Visitor& v) {
   return {{"state", "waited a minute"}};
 }
 
-class ClassRubric : public testing::Test {
+class ClassRubric : public ::testing::Test {
  protected:
   void SetUp() override {
     file_some(opened_.school(), 2);

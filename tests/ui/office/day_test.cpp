@@ -14,7 +14,7 @@ using namespace testing_ledger;
 using nlohmann::json;
 
 /// An office with two stations: that of CAVUM_HOME, and Seat 2.
-class ADay : public testing::Test {
+class ADay : public ::testing::Test {
  protected:
   ADay()
       : key_(load_signing_key(opened_.school().file("seat2.key"), "station")),

@@ -27,7 +27,7 @@ HttpLimits hasty() {
   return limits;
 }
 
-class Strangers : public testing::Test {
+class Strangers : public ::testing::Test {
  protected:
   static void SetUpTestSuite() { opened_ = new Opened(hasty()); }
   static void TearDownTestSuite() { delete opened_; }

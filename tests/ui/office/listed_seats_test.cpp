@@ -10,7 +10,7 @@ using namespace testing_office;
 using namespace testing_ledger;
 using nlohmann::json;
 
-class ListedSeats : public testing::Test {
+class ListedSeats : public ::testing::Test {
  protected:
   void SetUp() override { enrol("Seat 2", "two"); }
   void enrol(const std::string& name, const std::string& key_file) const {

@@ -11,7 +11,7 @@ using namespace testing_office;
 using namespace testing_ledger;
 using nlohmann::json;
 
-class OfficeMakeup : public testing::Test {
+class OfficeMakeup : public ::testing::Test {
  protected:
   /// Issues a ticket for one candidate and returns its row of the list.
   json issued(const std::string& list, std::int64_t from_h, std::int64_t until_h) {

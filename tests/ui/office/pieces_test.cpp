@@ -26,7 +26,7 @@ std::string some_bytes(std::size_t size, std::uint64_t seed) {
   return out;
 }
 
-class InPieces : public testing::Test {
+class InPieces : public ::testing::Test {
  protected:
   Pieces make(const PiecesLimits& limits = {}) {
     return {folder_.file("pieces"),

@@ -68,7 +68,7 @@ TEST(ProxyWord, IsSetUpOnlyWithAnAddressAFieldAndASecretThatAreSome) {
         << address << " " << field;
 }
 
-class BehindAProxy : public testing::Test {
+class BehindAProxy : public ::testing::Test {
  protected:
   void SetUp() override {
     opened_.accounts().set("Eva Stein", Role::examiner, k_password, false, k_eva);

@@ -174,7 +174,7 @@ TEST(Wire, WhatIsWrittenReadsBack) {
 
 /// Every route with every role, signed in and not, with the token and without: the server lets in
 /// exactly whom the table names.
-class EveryRoute : public testing::Test {
+class EveryRoute : public ::testing::Test {
  protected:
   static void SetUpTestSuite() { opened_ = new Opened(); }
   static void TearDownTestSuite() { delete opened_; }

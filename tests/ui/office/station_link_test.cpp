@@ -35,7 +35,7 @@ bool within(double seconds, const std::function<bool()>& holds) {
 }
 
 /// An office, and the folders of a station's tickets and recordings.
-class AStation : public testing::Test {
+class AStation : public ::testing::Test {
  protected:
   AStation() : officer_(opened_.signed_in(Role::officer)) {
     fs::create_directories(folder("exams"));

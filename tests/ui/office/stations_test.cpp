@@ -16,7 +16,7 @@ using namespace testing_ledger;
 using nlohmann::json;
 
 /// An office with a ticket; its station is the one of CAVUM_HOME.
-class OverTheNetwork : public testing::Test {
+class OverTheNetwork : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     opened_ = new Opened();

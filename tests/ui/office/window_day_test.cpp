@@ -30,7 +30,7 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 /// The window of this school's station, with a simulated hand: its exams are filed as a rehearsal.
-class AWindow : public testing::Test {
+class AWindow : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!screen_.there())

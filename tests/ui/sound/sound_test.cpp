@@ -434,7 +434,7 @@ int in_child(const Action& action) {
   const pid_t child = fork();
   if (child == 0) {
     action();
-    _exit(testing::Test::HasFailure() ? 1 : 0);
+    _exit(::testing::Test::HasFailure() ? 1 : 0);
   }
   int status = 0;
   waitpid(child, &status, 0);

@@ -11,7 +11,7 @@ namespace {
 
 using namespace testing_engine;
 
-class PressRig : public testing::Test {
+class PressRig : public ::testing::Test {
  protected:
   PressBench bench_ = make_press_bench(shipped_bur("round-1.0"));
   PressOptions options_;

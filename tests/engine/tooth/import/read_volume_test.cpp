@@ -23,7 +23,7 @@ namespace {
 using namespace testing_import;
 
 /// Test programs do not lie beside cavum.
-class Program : public testing::Environment {
+class Program : public ::testing::Environment {
  public:
   void SetUp() override { ::setenv("CAVUM_READ_VOLUME", CAVUM_READ_VOLUME_PROGRAM, 1); }
 };

@@ -64,8 +64,8 @@ struct Range {
 };
 
 template <class Case>
-class FormulaTeeth : public testing::Test {};
-using Cases = testing::Types<MolarCase, PremolarCase, IncisorCase>;
+class FormulaTeeth : public ::testing::Test {};
+using Cases = ::testing::Types<MolarCase, PremolarCase, IncisorCase>;
 TYPED_TEST_SUITE(FormulaTeeth, Cases);
 
 TYPED_TEST(FormulaTeeth, HaveTheMeasuresOfTheTextbook) {

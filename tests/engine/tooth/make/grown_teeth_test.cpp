@@ -61,8 +61,8 @@ const Tooth& drawn_tooth() {
 }
 
 template <class Kind>
-class GrownTeeth : public testing::Test {};
-using Kinds = testing::Types<GrownMolar, GrownPremolar, GrownIncisor>;
+class GrownTeeth : public ::testing::Test {};
+using Kinds = ::testing::Types<GrownMolar, GrownPremolar, GrownIncisor>;
 TYPED_TEST_SUITE(GrownTeeth, Kinds);
 
 TYPED_TEST(GrownTeeth, AreOneBodyOfEachTissueEachInsideTheOther) {

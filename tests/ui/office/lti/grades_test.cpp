@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 using nlohmann::json;
 
 /// Two exams are filed, of 4711 and 4712.
-class Grades : public testing::Test {
+class Grades : public ::testing::Test {
  protected:
   void SetUp() override {
     LtiPlatforms(opened_.home() + "/platforms.json").set(platform_in(platform_.set_up()));

@@ -13,7 +13,7 @@ using namespace testing_office;
 using nlohmann::json;
 
 /// An office that knows the platform; nobody sat yet.
-class Launches : public testing::Test {
+class Launches : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     opened_ = new Opened();

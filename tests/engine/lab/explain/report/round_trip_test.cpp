@@ -134,7 +134,7 @@ Recording with(const Case& c, const made::Options& options) {
   return r;
 }
 
-class RoundTrip : public testing::TestWithParam<std::size_t> {};
+class RoundTrip : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(RoundTrip, TheExtendedModelLeavesNothing) {
   const Case c = cases()[GetParam()];
@@ -177,7 +177,7 @@ TEST_P(RoundTrip, TheExtendedModelLeavesNothing) {
       0.004);  // k and c were fitted again: single rows at the ends of contact may differ more
 }
 
-INSTANTIATE_TEST_SUITE_P(Explain, RoundTrip, testing::Range<std::size_t>(0, cases().size()),
+INSTANTIATE_TEST_SUITE_P(Explain, RoundTrip, ::testing::Range<std::size_t>(0, cases().size()),
                          [](const auto& p) { return std::string(cases()[p.param].name); });
 
 }  // namespace
