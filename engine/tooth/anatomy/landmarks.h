@@ -84,9 +84,9 @@ struct Landmarks {
 
 /// Finds them. Uses only + - * / and sqrt in a fixed order: the same tooth gives the same bits
 /// everywhere. Below 2 s for a molar of 0.05 mm leaves. Of a tooth with neighbours or gum
-/// (adjacent.h) they are those of the tooth alone. Points that a person put (Tooth::placed_landmarks)
-/// stand in place of what was found. Never throws for a tooth without anatomy (a block): then
-/// nearly all is absent.
+/// (adjacent.h) they are those of the tooth alone. Points that a person put
+/// (Tooth::placed_landmarks) stand in place of what was found. Never throws for a tooth without
+/// anatomy (a block): then nearly all is absent.
 [[nodiscard]] Landmarks find_landmarks(const Tooth& tooth);
 
 /// Every single point by its name, in a fixed order: `cusp_1`, ..., `mesial_ridge`, `distal_ridge`,
