@@ -209,7 +209,7 @@ namespace cavum::records {
   KIND(receipt_lost, restored, "the entry on the receipt was lost when the ledger went on from a backup (entry {}): file its session again", "by") \
   KIND(contested, contested, "is contested by entry {}, another ending of the same exam: a person has chosen which counts", "by") \
   KIND(contested_open, contested, "is contested by entry {}, another ending of the same exam: a person decides which counts", "by") \
-  KIND(release_void, release_void, "has not released entry {}, for it names two endings of the same exam, and one counts: choose it with --session", "of") \
+  KIND(release_void, release_void, "has not released entry {}, for it names entry {}, too, another ending of the same exam, and one counts: choose it with --session", "of", "other") \
   KIND(release_other_chosen, release_void, "has not released entry {}, for entry {}, another ending of the same exam, was chosen before", "of", "other") \
   KIND(release_made_up, release_void, "has not released entry {}, for the makeup sitting of entry {} counts in its place", "of", "other") \
   KIND(release_other_sitting, release_void, "has not released entry {}, for entry {}, another sitting of the same exam, is released", "of", "other")

@@ -62,10 +62,10 @@ std::optional<Finding> why_void(const Registry& r, const FiledSession& s,
   if (s.made_up_by) return finding<FindingKind::release_made_up>(s.seq, *s.made_up_by);
   if (const FiledSession* other = r.shown_adjacent(s))
     return finding<FindingKind::release_other_sitting>(s.seq, other->seq);
-  const bool both = std::any_of(r.sessions.begin(), r.sessions.end(), [&](const FiledSession& o) {
-    return contest_each_other(s, o) && results.contains(o.result_seq);
-  });
-  return both ? std::optional(finding<FindingKind::release_void>(s.seq)) : std::nullopt;
+  for (const FiledSession& other : r.sessions)
+    if (contest_each_other(s, other) && results.contains(other.result_seq))
+      return finding<FindingKind::release_void>(s.seq, other.seq);
+  return std::nullopt;
 }
 
 /// What the entry `seq` releases, `results`: of several endings of one exam one, and once a person
