@@ -39,6 +39,7 @@ struct FactRow {
 
 #define CAVUM_FACT_ROW(KIND, GROUP, ENGLISH, ...) \
   FactRow{#KIND, static_cast<std::size_t>(GROUP), ENGLISH, {__VA_ARGS__}},
+// NOLINTBEGIN(bugprone-macro-parentheses): the name of a type
 /// TABLE(ROW) is a list of ROW(kind, group, English sentence, names of its values).
 #define CAVUM_FACTS(TYPE, TABLE)                                                             \
   enum class TYPE : std::uint16_t { TABLE(CAVUM_ENUM_VALUE) };                               \
@@ -50,6 +51,7 @@ struct FactRow {
   static_assert(std::ranges::all_of(                                                         \
       k_rows_of_##TYPE, [](const FactRow& row) { return row.gaps() <= row.count(); }));      \
   [[nodiscard]] constexpr std::span<const FactRow> rows_of(TYPE) { return k_rows_of_##TYPE; }
+// NOLINTEND(bugprone-macro-parentheses)
 
 template <class Kind>
 struct TableFact {

@@ -12,8 +12,8 @@
 namespace cavum::records {
 
 struct ExportedGrade {
-  nlohmann::json grade;  ///< the points; 0 where they would pass and the exam was failed; the pass
-                         ///< mark where they would fail and it was passed; null of a `review`
+  nlohmann::json grade;   ///< the points; 0 where they would pass and the exam was failed; the pass
+                          ///< mark where they would fail and it was passed; null of a `review`
   nlohmann::json points;  ///< out of max
   nlohmann::json max;     ///< the exam's own
   bool by_another_rubric =

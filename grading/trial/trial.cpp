@@ -258,9 +258,9 @@ void TrialRun::put(const FaultyPreparation& work, const Result& r) {
   trial_.problems.push_back(scenarios::problem_at(
       scenario_, "rubric",
       row.should.empty()
-          ? msg("faulty preparations passes: '{}' ({}) gets {} of {} points", row.name, row.what,
+          ? msg("a faulty preparation passes: '{}' ({}) gets {} of {} points", row.name, row.what,
                 as_points(row.points), as_points(row.max))
-          : msg("faulty preparations passes: '{}' ({}) gets {} of {} points, and {} should have caught it",
+          : msg("a faulty preparation passes: '{}' ({}) gets {} of {} points, and {} should have caught it",
                 row.name, row.what, as_points(row.points), as_points(row.max), row.should),
       advice_against(should), scenarios::Mistake::faulty_preparations));
 }

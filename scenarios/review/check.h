@@ -30,7 +30,7 @@ struct CheckedScenario {
 };
 
 /// `tooth_file`: lay the zones into this tooth instead of the scenario's own. Throws Error when
-/// that one cannot be read. Not whether faulty preparations passes: grading/trial tries that.
+/// that one cannot be read. Not whether a faulty preparation passes: grading/trial tries that.
 [[nodiscard]] CheckedScenario check_whole(const std::string& text, const std::string& path,
                                           const std::string& tooth_file = "");
 

@@ -134,7 +134,7 @@ def main():
             rows.append(done.result())
             print(table_row(rows[-1]), flush=True)
     rows.sort(key=lambda r: (r["tooth"], r["task"]))
-    print("\n| tooth | task | written and tried, s | expert, % | faulty preparations that passes | chosen |\n| - | - | - | - | - | - |")
+    print("\n| tooth | task | written and tried, s | expert, % | faulty preparations that pass | chosen |\n| - | - | - | - | - | - |")
     for row in rows:
         print(table_row(row))
     refused = [r for r in rows if r["refused"]]

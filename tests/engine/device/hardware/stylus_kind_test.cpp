@@ -99,7 +99,7 @@ TEST(StylusKinds, TheRecipeNamesTheFieldsOfTheRecord) {
                     record = whole.substr(
                         whole.find("struct StylusKind {"),
                         whole.find("class StylusKinds") - whole.find("struct StylusKind {"));
-  const std::regex in_page(R"(`([a-z]+)`)"), in_record(R"( ([a-z]+)(?: = [^;]*)?;)");
+  const std::regex in_page(R"(`([a-z]+)`)"), in_record(R"( ([a-z]+)(?: =[^;]*)?;)");
   const auto names = [](const std::string& text, const std::regex& pattern) {
     std::set<std::string> found;
     for (std::sregex_iterator i(text.begin(), text.end(), pattern), end; i != end; ++i)
